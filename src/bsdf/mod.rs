@@ -1,0 +1,62 @@
+//! Bidirectional scattering distribution functions.
+//!
+//! Everything here works in the local shading frame (z = ns). `wo` and `wi` are unit vectors that point away from
+//! the surface; one is below the horizon where light is transmitted. Numbers come in, `Option<Sample>` goes out.
+
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+
+/// What is carried along the path: radiance from lights to the eye (paths traced from the camera), or importance
+/// (particles traced from lights). Refraction scales radiance by 1/η², importance not (Veach 1997, section 5.2).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Transport {
+    /// The path was traced from the camera.
+    Radiance,
+    /// The path was traced from a light.
+    Importance,
+}
+
+/// The two letters of light path expressions: diffuse (Lambertian) or specular (mirror-like or glossy).
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Class {
+    /// Lambertian.
+    Diffuse,
+    /// Microfacet, mirror or refraction.
+    Specular,
+}
+
+/// How likely a direction was drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Pdf {
+    /// Density over solid angle \[1/sr\], of the whole non-delta part of the BSDF.
+    SolidAngle(f32),
+    /// Probability of a direction from a delta distribution.
+    Discrete(f32),
+}
+
+/// A drawn direction.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// The direction, local, unit.
+    pub wi: Vec3,
+    /// f |cos θi| / pdf, of all non-delta lobes together, or of the delta lobe that was drawn.
+    pub weight: Spectrum,
+    /// The part of `weight` that specular lobes give; all of it or nothing where one class was present.
+    pub specular: Spectrum,
+    /// Density or probability of the draw, the choice among lobes included.
+    pub pdf: Pdf,
+    /// Relative index of refraction crossed: η of the side of `wi` over η of the side of `wo`; 1 for a reflection.
+    pub eta: f32,
+}
+
+/// The non-delta part of a BSDF for two directions.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Eval {
+    /// f \[1/sr\], without the cosine.
+    pub f: Spectrum,
+    /// The part of `f` that specular lobes give.
+    pub specular: Spectrum,
+    /// Density \[1/sr\] with which `sample` draws `wi`, the choice among lobes included. It integrates over the
+    /// sphere to one minus the probability of the delta lobes (and of failed draws).
+    pub pdf: f32,
+}

@@ -1,0 +1,61 @@
+//! Reading what a scene file refers to, and nothing outside its folder.
+
+use super::Error;
+use std::path::{Path, PathBuf};
+
+/// Largest file that is read \[bytes\].
+const MAX_BYTES: u64 = 4 << 30;
+
+/// Reads a whole file.
+pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
+    let fail = |e: std::io::Error| Error::missing(path, "", format!("cannot be read: {e}"));
+    let meta = std::fs::metadata(path).map_err(fail)?;
+    if !meta.is_file() {
+        return Err(Error::missing(path, "", "is not a file"));
+    }
+    if meta.len() > MAX_BYTES {
+        return Err(Error::invalid(path, "", format!("has {} bytes; at most {MAX_BYTES} are read", meta.len())));
+    }
+    std::fs::read(path).map_err(fail)
+}
+
+/// The folder of the scene file `scene`, in which everything that it refers to must lie.
+#[derive(Clone, Debug)]
+pub struct Folder {
+    scene: PathBuf,
+}
+
+impl Folder {
+    /// The folder of this scene file.
+    pub fn of(scene: &Path) -> Self {
+        Self { scene: scene.into() }
+    }
+
+    /// The file that the scene calls `name` (relative, `/` between parts), or an error that names `place` in the
+    /// scene file. Links are followed before the check that it lies inside the folder.
+    pub fn resolve(&self, name: &str, place: &str) -> Result<PathBuf, Error> {
+        let folder = match self.scene.parent() {
+            Some(p) if !p.as_os_str().is_empty() => p,
+            _ => Path::new("."),
+        };
+        let missing = |e: std::io::Error| Error::missing(&self.scene, place, format!("`{name}` cannot be read: {e}"));
+        let root = folder.canonicalize().map_err(missing)?;
+        let path = root.join(name).canonicalize().map_err(missing)?;
+        if !path.starts_with(&root) {
+            let message = format!("`{name}` lies outside the scene's folder; copy or link it there");
+            return Err(Error::invalid(&self.scene, place, message));
+        }
+        Ok(folder.join(name))
+    }
+
+    /// Reads the file that the scene calls `name`.
+    pub fn read(&self, name: &str, place: &str) -> Result<Vec<u8>, Error> {
+        let path = self.resolve(name, place)?;
+        read(&path).map_err(|e| Error {
+            message: format!("`{name}`: {}", e.message),
+            file: self.scene.clone(),
+            place: place.into(),
+            ..e
+        })
+    }
+}

@@ -1,0 +1,198 @@
+//! Materials as written: parameters, textures, and what they mean; lobes are made of them in `material/`.
+
+use super::TextureRef;
+
+/// A surface material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Name for messages.
+    pub name: String,
+    /// How it scatters.
+    pub model: Model,
+    /// Radiance that it emits.
+    pub emission: Option<Emission>,
+    /// Bump of the shading normal.
+    pub normal_map: Option<NormalMap>,
+    /// Coverage: what share of the surface is there at all.
+    pub alpha: Alpha,
+    /// The back is shaded as the front (glTF). Opaque lobes are always two-sided in a path tracer; kept for reports.
+    pub double_sided: bool,
+}
+
+/// The scattering model.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Model {
+    /// Lambert.
+    Diffuse {
+        /// Albedo ρ, linear RGB in [0, 1].
+        reflectance: ColorParam,
+    },
+    /// Perfect mirror of constant reflectance.
+    Mirror {
+        /// Share reflected, linear RGB.
+        reflectance: ColorParam,
+    },
+    /// Interface between two dielectrics, reflecting and refracting.
+    Dielectric {
+        /// Index of refraction inside (behind the normal) over outside.
+        ior: f32,
+        /// 0: smooth.
+        roughness: Roughness,
+        /// Factor on what is transmitted; 1 is physical.
+        tint: ColorParam,
+    },
+    /// Metal.
+    Conductor {
+        /// Its reflectance over angle.
+        fresnel: Fresnel,
+        /// 0: smooth.
+        roughness: Roughness,
+    },
+    /// Constant-weight mixture, f = Σ wᵢ fᵢ; the weights sum to at most 1 (the rest absorbs).
+    Mix(Vec<(f32, Model)>),
+    /// glTF's metallic-roughness model with the extensions honoured.
+    MetallicRoughness(Box<MetallicRoughness>),
+    /// Scatters nothing: black (emitters, unlit).
+    Absorb,
+}
+
+/// Reflectance of a conductor over the angle.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Fresnel {
+    /// Complex index of refraction η − iκ per RGB lane, over the outside.
+    Complex {
+        /// Real part.
+        eta: [f32; 3],
+        /// Extinction κ.
+        k: [f32; 3],
+    },
+    /// Schlick's approximation with grazing reflectance 1.
+    Schlick {
+        /// Reflectance at normal incidence.
+        f0: ColorParam,
+    },
+}
+
+/// GGX roughness.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Roughness {
+    /// Perceptual roughness r in [0, 1]: α = r² both ways. α below 1e-4 is a smooth interface.
+    Perceptual(ScalarParam),
+    /// α along the tangent and the bitangent, constant.
+    Alpha([f32; 2]),
+}
+
+/// glTF 2.0, section 3.9 and appendix B.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MetallicRoughness {
+    /// Base colour.
+    pub base_color: ColorParam,
+    /// Metalness.
+    pub metallic: ScalarParam,
+    /// Perceptual roughness; α = r².
+    pub roughness: ScalarParam,
+    /// KHR_materials_ior; 1.5 without. 0 stands for F0 = 1.
+    pub ior: f32,
+    /// KHR_materials_specular: factor on the dielectric reflection; 1 without.
+    pub specular: ScalarParam,
+    /// KHR_materials_specular: colour of the dielectric F0; white without.
+    pub specular_color: ColorParam,
+    /// KHR_materials_transmission, with KHR_materials_volume deciding whether it is thin.
+    pub transmission: Option<Transmission>,
+}
+
+/// KHR_materials_transmission.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Transmission {
+    /// Share of the diffuse base that is transmitted instead.
+    pub factor: ScalarParam,
+    /// True: an infinitely thin sheet that does not bend light; false (KHR_materials_volume with thickness): refracts.
+    pub thin: bool,
+}
+
+/// Linear RGB: factor × texture × vertex colour.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ColorParam {
+    /// Constant factor.
+    pub factor: [f32; 3],
+    /// RGB of this texture, if any.
+    pub texture: Option<TextureRef>,
+    /// Times RGB of the vertex colour where the mesh has one.
+    pub vertex_color: bool,
+}
+
+/// A number: factor × one channel of a texture.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScalarParam {
+    /// Constant factor.
+    pub factor: f32,
+    /// Texture and channel (0–3: R, G, B, A), if any.
+    pub texture: Option<(TextureRef, usize)>,
+}
+
+/// Tangent-space normal map: n = (2 rgb − 1) × (scale, scale, 1), normalised.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NormalMap {
+    /// The texture, linear.
+    pub texture: TextureRef,
+    /// Factor on x and y.
+    pub scale: f32,
+}
+
+/// Emitted radiance \[W·sr⁻¹·m⁻²\], the same in all directions of a side.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Emission {
+    /// Linear RGB.
+    pub radiance: ColorParam,
+    /// Which side emits.
+    pub sides: Sides,
+}
+
+/// Sides of a surface.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sides {
+    /// The side of the geometric normal.
+    Front,
+    /// Both.
+    Both,
+}
+
+/// Coverage.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Alpha {
+    /// All there.
+    Opaque,
+    /// There where the coverage (× vertex alpha) is at least `cutoff`.
+    Mask {
+        /// Coverage.
+        coverage: ScalarParam,
+        /// Threshold.
+        cutoff: f32,
+    },
+    /// There with this probability (× vertex alpha).
+    Blend {
+        /// Coverage.
+        coverage: ScalarParam,
+    },
+}
+
+impl ColorParam {
+    /// A constant.
+    pub const fn constant(factor: [f32; 3]) -> Self {
+        Self { factor, texture: None, vertex_color: false }
+    }
+}
+
+impl ScalarParam {
+    /// A constant.
+    pub const fn constant(factor: f32) -> Self {
+        Self { factor, texture: None }
+    }
+}
+
+impl Material {
+    /// A material of this model, without emission, maps or holes.
+    pub fn new(name: impl Into<String>, model: Model) -> Self {
+        Self { name: name.into(), model, emission: None, normal_map: None, alpha: Alpha::Opaque, double_sided: true }
+    }
+}

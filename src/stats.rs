@@ -1,0 +1,1 @@
+//! Moments, standard errors, z, χ², Šidák.

@@ -1,0 +1,1 @@
+//! Maps of the unit square, each with its density and inverse.
