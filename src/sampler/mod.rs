@@ -1,1 +1,113 @@
-//! .
+//! Numbers in [0, 1). A number is a pure function of (seed, pixel, index, dimension): nothing depends on which thread
+//! takes a sample, in which order, or what was taken before.
+//!
+//! Sample `index` of a pixel belongs to replicate `index / replicate`. Replicates are independent of each other, so
+//! the spread of their means is the error of the whole, for low-discrepancy points too.
+
+mod hash;
+mod independent;
+mod sobol;
+
+pub use hash::{hash, mix};
+pub use independent::Independent;
+pub use sobol::{Sobol, owen_scramble, sobol_2d};
+
+/// Where the numbers come from.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Kind {
+    /// Independent pseudo-random numbers (PCG).
+    Independent,
+    /// Owen-scrambled Sobol points.
+    #[default]
+    Sobol,
+}
+
+/// The numbers of one sample of one pixel, dimension after dimension.
+#[derive(Clone, Debug)]
+pub enum Sampler {
+    /// Independent pseudo-random numbers (PCG).
+    Independent(Independent),
+    /// Owen-scrambled Sobol points.
+    Sobol(Sobol),
+}
+
+impl Sampler {
+    /// At dimension 0 of sample `index` of `pixel`. `replicate` is the number of samples of an independent replicate,
+    /// a power of two (others are rounded up to one); it matters to [`Kind::Sobol`] only.
+    #[inline]
+    pub fn new(kind: Kind, seed: u64, pixel: [u32; 2], index: u64, replicate: u32) -> Self {
+        match kind {
+            Kind::Independent => Self::Independent(Independent::new(seed, pixel, index)),
+            Kind::Sobol => Self::Sobol(Sobol::new(seed, pixel, index, replicate)),
+        }
+    }
+
+    /// The number at this dimension; goes on to the next.
+    #[inline]
+    pub fn next_1d(&mut self) -> f32 {
+        match self {
+            Self::Independent(s) => s.next_1d(),
+            Self::Sobol(s) => s.next_1d(),
+        }
+    }
+
+    /// The pair at this dimension and the next, well spread together; goes on by two.
+    #[inline]
+    pub fn next_2d(&mut self) -> [f32; 2] {
+        match self {
+            Self::Independent(s) => s.next_2d(),
+            Self::Sobol(s) => s.next_2d(),
+        }
+    }
+
+    /// Goes to `dimension`, forwards or backwards.
+    #[inline]
+    pub fn skip_to(&mut self, dimension: u32) {
+        match self {
+            Self::Independent(s) => s.skip_to(dimension),
+            Self::Sobol(s) => s.skip_to(dimension),
+        }
+    }
+
+    /// The dimension that comes next.
+    #[inline]
+    pub fn dimension(&self) -> u32 {
+        match self {
+            Self::Independent(s) => s.dimension(),
+            Self::Sobol(s) => s.dimension(),
+        }
+    }
+}
+
+/// The upper 24 bits as a multiple of 2⁻²⁴ in [0, 1).
+#[inline]
+fn unit(bits: u32) -> f32 {
+    (bits >> 8) as f32 * (1.0 / (1 << 24) as f32)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_is_never_reached() {
+        assert_eq!(unit(0), 0.0);
+        assert_eq!(unit(u32::MAX), crate::warp::ONE_MINUS_EPSILON);
+    }
+
+    #[test]
+    fn numbers_are_a_function_of_place_alone() {
+        for kind in [Kind::Independent, Kind::Sobol] {
+            let at = |index| Sampler::new(kind, 7, [3, 5], index, 64);
+            let mut straight = at(70_000);
+            let numbers: Vec<f32> = (0..40).map(|_| straight.next_1d()).collect();
+            for d in (0..40).rev() {
+                let mut s = at(70_000);
+                s.next_2d();
+                s.skip_to(d);
+                assert_eq!((s.dimension(), s.next_1d(), s.dimension()), (d, numbers[d as usize], d + 1));
+            }
+            assert_ne!(at(70_001).next_1d(), numbers[0]);
+        }
+    }
+}

@@ -1,1 +1,0 @@
-//! Moments, standard errors, z, χ², Šidák.

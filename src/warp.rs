@@ -1,1 +1,0 @@
-//! Maps of the unit square, each with its density and inverse.

@@ -1,0 +1,41 @@
+//! Square → disk.
+
+use super::to_unit;
+use glam::Vec2;
+use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
+
+/// Density of [`uniform_disk`] over area.
+pub const UNIFORM_DISK_PDF: f32 = FRAC_1_PI;
+
+/// Uniform over the unit disk: concentric squares become concentric circles, areas keep their ratios and neighbours
+/// stay neighbours (Shirley & Chiu 1997, "A Low Distortion Map Between Disk and Square").
+#[inline]
+pub fn uniform_disk(u: [f32; 2]) -> Vec2 {
+    let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
+    if a == 0.0 && b == 0.0 {
+        return Vec2::ZERO;
+    }
+    // In the wedge about ±x the radius is a and the angle π/4 b/a; the wedge about ±y is its mirror image.
+    if a.abs() > b.abs() {
+        let (sin, cos) = (FRAC_PI_4 * (b / a)).sin_cos();
+        Vec2::new(a * cos, a * sin)
+    } else {
+        let (sin, cos) = (FRAC_PI_4 * (a / b)).sin_cos();
+        Vec2::new(b * sin, b * cos)
+    }
+}
+
+/// Inverse of [`uniform_disk`].
+pub fn uniform_disk_inverse(p: Vec2) -> [f32; 2] {
+    let r = p.length();
+    let (a, b) = if p.x.abs() > p.y.abs() {
+        let a = r.copysign(p.x);
+        (a, a * (p.y / p.x).atan() / FRAC_PI_4)
+    } else if p.y != 0.0 {
+        let b = r.copysign(p.y);
+        (b * (p.x / p.y).atan() / FRAC_PI_4, b)
+    } else {
+        (0.0, 0.0)
+    };
+    [to_unit(0.5 * a + 0.5), to_unit(0.5 * b + 0.5)]
+}
