@@ -66,6 +66,12 @@ impl BoxBvh {
         found
     }
 
+    /// Holds nothing.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
+    }
+
     /// Box about everything.
     pub fn bounds(&self) -> Aabb {
         self.bounds

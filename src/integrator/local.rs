@@ -1,6 +1,8 @@
 //! Local illumination: emitted and direct light, L = Le + ∫ f Le |cos| dω, without recursion.
 
-use super::{Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy};
+use super::{
+    Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
+};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -11,6 +13,7 @@ use crate::spectrum::Spectrum;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let mut sample = PixelSample::default();
     let none = Classes::default();
+    watch.ray();
     let Some(vertex) = method.scene.intersect(ray, &mut || sampler.next_1d()) else {
         sample.radiance = environment(method, ray, Drawn::Camera);
         watch.light(sample.radiance, &none);
@@ -50,8 +53,7 @@ pub(super) fn reflected<O: Observer>(
 
     // By light.
     if sees_lights(&shading.bsdf, scene) {
-        let coverage = &mut || sampler.next_1d();
-        let (all, specular) = direct_light(method, vertex, shading, choose_light, u_light, coverage);
+        let (all, specular) = direct_light(method, vertex, shading, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }
@@ -63,6 +65,7 @@ pub(super) fn reflected<O: Observer>(
     if !keep(drawn) {
         return sum;
     }
+    watch.ray();
     let le = match scene.intersect(&ray, &mut || sampler.next_1d()) {
         Some(end) => emitted(method, &ray, &end, drawn),
         None => environment(method, &ray, drawn),

@@ -46,6 +46,8 @@ pub struct Method<'a> {
 pub trait Observer {
     /// Whether `classes` are tracked for this observer; they cost a division a vertex.
     const CLASSES: bool = false;
+    /// A ray is about to be traced.
+    fn ray(&mut self) {}
     /// `radiance` was added to the pixel after reflections of these `classes`.
     fn light(&mut self, _radiance: Spectrum, _classes: &Classes) {}
     /// The path met a surface.
@@ -66,6 +68,28 @@ impl Observer for ByClass {
     const CLASSES: bool = true;
     fn light(&mut self, radiance: Spectrum, classes: &Classes) {
         classes.split(radiance, &mut self.0);
+    }
+}
+
+/// Counts rays.
+#[derive(Clone, Copy, Default)]
+pub struct RayCount(pub u64);
+
+impl Observer for RayCount {
+    #[inline]
+    fn ray(&mut self) {
+        self.0 += 1;
+    }
+}
+
+/// Two who watch together; the first hears of light, the second of rays.
+impl Observer for (ByClass, RayCount) {
+    const CLASSES: bool = true;
+    fn ray(&mut self) {
+        self.1.ray();
+    }
+    fn light(&mut self, radiance: Spectrum, classes: &Classes) {
+        self.0.light(radiance, classes);
     }
 }
 
@@ -96,13 +120,13 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: 
 /// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
 /// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
 /// light). Returns the radiance and the part of it that specular lobes reflect.
-pub fn direct_light(
+pub fn direct_light<O: Observer>(
     method: &Method,
     vertex: &Vertex,
     shading: &Shading,
     choice: f32,
     u: [f32; 2],
-    coverage: &mut impl FnMut() -> f32,
+    watch: &mut O,
 ) -> (Spectrum, Spectrum) {
     const NOTHING: (Spectrum, Spectrum) = (Spectrum::ZERO, Spectrum::ZERO);
     let scene = method.scene;
@@ -122,7 +146,8 @@ pub fn direct_light(
     if eval.f.is_black() {
         return NOTHING;
     }
-    let visible = scene.visibility(vertex, &light, coverage);
+    watch.ray();
+    let visible = scene.visibility(vertex, &light);
     if visible == 0.0 {
         return NOTHING;
     }

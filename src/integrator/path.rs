@@ -1,6 +1,8 @@
 //! The path tracer: equation (2), recursion and all, by one random path a sample.
 
-use super::{Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy};
+use super::{
+    Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
+};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -19,6 +21,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let mut classes = Classes::default();
 
     for depth in 0.. {
+        watch.ray();
         let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
             let light = beta * environment(method, &ray, drawn);
             sample.radiance += light;
@@ -45,8 +48,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 
         // ∫ by light
         if sees_lights(&shading.bsdf, scene) {
-            let coverage = &mut || sampler.next_1d();
-            let (all, specular) = direct_light(method, &vertex, &shading, choose_light, u_light, coverage);
+            let (all, specular) = direct_light(method, &vertex, &shading, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {

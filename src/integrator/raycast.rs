@@ -10,6 +10,7 @@ use crate::spectrum::Spectrum;
 /// L = Le.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let mut sample = PixelSample::default();
+    watch.ray();
     match method.scene.intersect(ray, &mut || sampler.next_1d()) {
         None => {
             sample.radiance = environment(method, ray, Drawn::Camera);

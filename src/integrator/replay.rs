@@ -41,7 +41,12 @@ impl Observer for Replay {
             vertex.material,
             beta.to_rgb()
         ));
-        self.line(format_args!("    ng {:?}, uv {:?}, wo {:?}", s.ng.to_array(), s.uv[0].to_array(), (-ray.d).to_array()));
+        self.line(format_args!(
+            "    ng {:?}, uv {:?}, wo {:?}",
+            s.ng.to_array(),
+            s.uv[0].to_array(),
+            (-ray.d).to_array()
+        ));
         if let Some(shading) = shading {
             self.line(format_args!("    ns {:?}", shading.frame.n.to_array()));
         }
@@ -51,7 +56,11 @@ impl Observer for Replay {
     }
 
     fn escaped(&mut self, depth: u32, ray: &Ray, beta: Spectrum) {
-        self.line(format_args!("vertex {depth}: left the scene along {:?}, beta {:?}", ray.d.to_array(), beta.to_rgb()));
+        self.line(format_args!(
+            "vertex {depth}: left the scene along {:?}, beta {:?}",
+            ray.d.to_array(),
+            beta.to_rgb()
+        ));
     }
 
     fn drawn(&mut self, drawn: Drawn, beta: Spectrum) {

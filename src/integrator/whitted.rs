@@ -18,6 +18,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let mut sample = PixelSample::default();
     let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default())];
     while let Some((ray, drawn, beta, classes)) = branches.pop() {
+        watch.ray();
         let depth = classes.reflections();
         let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
             let light = beta * environment(method, &ray, drawn);

@@ -71,10 +71,9 @@ impl Scene {
         }
     }
 
-    /// Unbiased estimate of the share of light that arrives at `vertex`: 0 or 1, or between where the way leads
-    /// through holes.
+    /// Share of light that arrives at `vertex`: 0 or 1, or between where the way leads through holes.
     #[inline]
-    pub fn visibility(&self, vertex: &Vertex, light: &LightSample, _u: &mut impl FnMut() -> f32) -> f32 {
+    pub fn visibility(&self, vertex: &Vertex, light: &LightSample) -> f32 {
         let s = &vertex.surface;
         let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
         let mut ray = match light.end {
