@@ -323,7 +323,7 @@ fn damaged_files_are_refused() {
     let whole = std::fs::read(&path).unwrap();
 
     assert!(matches!(read_exr(&folder.path().join("none.exr")), Err(ReadError::Missing(_))));
-    assert!(matches!(read_exr(folder.path()), Err(_)));
+    assert!(read_exr(folder.path()).is_err());
     for length in [0, 3, 4, 8, 100, whole.len() / 2, whole.len() - 1] {
         std::fs::write(&path, &whole[..length]).unwrap();
         assert!(matches!(read_exr(&path), Err(ReadError::Invalid(_))), "{length}");
