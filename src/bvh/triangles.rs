@@ -5,6 +5,7 @@ use super::build::build;
 use super::kernel::{self, Isa, KernelRay};
 use super::node::{Node, TriangleLeaf};
 use crate::math::Ray;
+use crate::shape::triangle_normal;
 use glam::Vec3;
 
 /// Where a ray met a triangle.
@@ -30,14 +31,17 @@ pub struct TriangleBvh {
 }
 
 impl TriangleBvh {
-    /// Builds over `indices` into `positions` (in range, finite).
+    /// Builds over `indices` into `positions` (in range, finite). Triangles without area have no normal and are never
+    /// hit.
     pub fn build(positions: &[Vec3], indices: &[[u32; 3]]) -> Self {
         let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
-        let boxes: Vec<Aabb> = indices.iter().map(|t| Aabb::of(corners(t))).collect();
+        let has_area = |t: &u32| triangle_normal(corners(&indices[*t as usize])).is_some();
+        let kept: Vec<u32> = (0..indices.len() as u32).filter(has_area).collect();
+        let boxes: Vec<Aabb> = kept.iter().map(|&t| Aabb::of(corners(&indices[t as usize]))).collect();
         let tree = build(&boxes);
         let leaves = tree.leaves.iter().map(|ids| {
             let mut leaf = TriangleLeaf::EMPTY;
-            for (lane, &id) in ids.iter().enumerate() {
+            for (lane, id) in ids.iter().map(|&i| kept[i as usize]).enumerate() {
                 leaf.id[lane] = id;
                 for (i, p) in corners(&indices[id as usize]).into_iter().enumerate() {
                     for axis in 0..3 {

@@ -25,6 +25,7 @@ pub use shape::{Mesh, Object, Shape};
 
 use glam::{Affine2, Mat3, Vec3};
 use std::path::PathBuf;
+use std::sync::Arc;
 
 /// A whole scene, indices everywhere: `usize` fields named after a list index it.
 #[derive(Clone, Debug, Default)]
@@ -43,8 +44,8 @@ pub struct Scene {
     pub materials: Vec<Material>,
     /// Ways of looking into images, and procedural patterns.
     pub textures: Vec<Texture>,
-    /// Pixels.
-    pub images: Vec<Image>,
+    /// Pixels, shared with what is traced.
+    pub images: Vec<Arc<Image>>,
     /// Lights without a surface.
     pub lights: Vec<Light>,
     /// What surrounds everything.

@@ -1,0 +1,137 @@
+//! Look-ups in images.
+
+use crate::desc::{Image, Pixels, Wrap};
+use glam::{DVec4, Vec2, Vec4};
+use std::sync::{Arc, LazyLock};
+
+/// An image with its way of looking into it. UV (0, 0) is the outer corner of the first pixel; texel i has its centre
+/// at (i + ½)/n.
+#[derive(Clone, Debug)]
+pub(super) struct ImageTexture {
+    image: Arc<Image>,
+    decode: &'static [f32; 256],
+    wrap: [Wrap; 2],
+    nearest: bool,
+}
+
+/// 8-bit code → linear: proportional, and by the sRGB curve (IEC 61966-2-1).
+static DECODE: LazyLock<[[f32; 256]; 2]> = LazyLock::new(|| {
+    let code = |i: usize| i as f64 / 255.0;
+    let srgb = |c: f64| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
+    [std::array::from_fn(|i| code(i) as f32), std::array::from_fn(|i| srgb(code(i)) as f32)]
+});
+
+impl ImageTexture {
+    pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
+        Self { image, decode: &DECODE[srgb as usize], wrap, nearest }
+    }
+
+    /// Linear RGBA at finite coordinates.
+    #[inline]
+    pub(super) fn at(&self, uv: Vec2) -> Vec4 {
+        let [width, height] = self.image.size.map(|n| n as i32);
+        let x = into_period(uv.x, self.wrap[0]) * width as f32;
+        let y = into_period(uv.y, self.wrap[1]) * height as f32;
+        if self.nearest {
+            return self.texel(wrap(x as i32, width, self.wrap[0]), wrap(y as i32, height, self.wrap[1]));
+        }
+
+        // The four texels whose centres surround the point.
+        let (x, y) = (x - 0.5, y - 0.5);
+        let (x0, y0) = (x.floor(), y.floor());
+        let (s, t) = (x - x0, y - y0);
+        let columns = [0, 1].map(|i| wrap(x0 as i32 + i, width, self.wrap[0]));
+        let rows = [0, 1].map(|i| wrap(y0 as i32 + i, height, self.wrap[1]));
+        let row = |y| self.texel(columns[0], y).lerp(self.texel(columns[1], y), s);
+        row(rows[0]).lerp(row(rows[1]), t)
+    }
+
+    /// Mean over all texels.
+    pub(super) fn mean(&self) -> Vec4 {
+        let [width, height] = self.image.size.map(|n| n as usize);
+        let sum: DVec4 =
+            (0..height).flat_map(|y| (0..width).map(move |x| (x, y))).map(|(x, y)| self.texel(x, y).as_dvec4()).sum();
+        (sum / (width * height) as f64).as_vec4()
+    }
+
+    #[inline]
+    fn texel(&self, x: usize, y: usize) -> Vec4 {
+        let i = y * self.image.size[0] as usize + x;
+        match &self.image.pixels {
+            Pixels::Rgba8(pixels) => {
+                let [r, g, b, a] = pixels[i];
+                let d = |code: u8| self.decode[code as usize];
+                Vec4::new(d(r), d(g), d(b), a as f32 / 255.0)
+            }
+            Pixels::Rgba32F(pixels) => Vec4::from(pixels[i]),
+        }
+    }
+}
+
+/// A coordinate of the texture's plane to the same place within [0, 1], or [0, 2] where it is mirrored: whatever its
+/// size, the product with the number of texels then stays in range.
+#[inline]
+fn into_period(u: f32, mode: Wrap) -> f32 {
+    match mode {
+        Wrap::Repeat => u - u.floor(),
+        Wrap::Mirror => u - 2.0 * (0.5 * u).floor(),
+        Wrap::Clamp => u.clamp(0.0, 1.0),
+    }
+}
+
+/// Texel index of a coordinate brought [`into_period`], which may lie one outside it, to [0, n).
+#[inline]
+fn wrap(i: i32, n: i32, mode: Wrap) -> usize {
+    let i = match mode {
+        Wrap::Repeat if i < 0 => i + n,
+        Wrap::Repeat if i >= n => i - n,
+        Wrap::Repeat => i,
+        Wrap::Mirror => {
+            let i = if i < n { i } else { 2 * n - 1 - i };
+            if i < 0 { -1 - i } else { i }
+        }
+        Wrap::Clamp => i.clamp(0, n - 1),
+    };
+    i as usize
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A column of n texels of value 0, 1, …
+    fn ramp(n: u32, mode: Wrap, nearest: bool) -> impl Fn(f32) -> f32 {
+        let pixels = Pixels::Rgba32F((0..n).map(|i| [i as f32; 4]).collect());
+        let image = Arc::new(Image { name: String::new(), size: [1, n], pixels });
+        let texture = ImageTexture::new(image, false, [mode; 2], nearest);
+        move |v| texture.at(Vec2::new(0.3, v)).y
+    }
+
+    #[test]
+    fn texel_centres_have_the_texel_s_value() {
+        for mode in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let at = ramp(4, mode, false);
+            for i in 0..4 {
+                assert_eq!(at((i as f32 + 0.5) / 4.0), i as f32);
+            }
+            assert_eq!(at(0.5), 1.5);
+        }
+    }
+
+    #[test]
+    fn outside_is_repeated_mirrored_or_clamped() {
+        let (repeat, mirror, clamp) =
+            (ramp(4, Wrap::Repeat, false), ramp(4, Wrap::Mirror, false), ramp(4, Wrap::Clamp, false));
+        assert_eq!([repeat(1.375), repeat(-0.625), repeat(0.0), repeat(1.0)], [1.0, 1.0, 1.5, 1.5]);
+        assert_eq!([mirror(1.375), mirror(-0.375), mirror(2.375), mirror(0.0), mirror(2.0)], [2.0, 1.0, 1.0, 0.0, 0.0]);
+        assert_eq!([clamp(1.375), clamp(-0.625), clamp(0.0), clamp(0.25)], [3.0, 0.0, 0.0, 0.5]);
+    }
+
+    #[test]
+    fn nearest_takes_the_texel_that_covers_the_point() {
+        let (repeat, mirror, clamp) =
+            (ramp(4, Wrap::Repeat, true), ramp(4, Wrap::Mirror, true), ramp(4, Wrap::Clamp, true));
+        assert_eq!([repeat(0.2), repeat(0.3), repeat(0.99), repeat(-0.1), repeat(1.0)], [0.0, 1.0, 3.0, 3.0, 0.0]);
+        assert_eq!([mirror(1.1), mirror(-0.1), clamp(1.0), clamp(7.0), clamp(-7.0)], [3.0, 0.0, 3.0, 3.0, 0.0]);
+    }
+}
