@@ -1,0 +1,272 @@
+//! Boxes → binary tree (obvhs) → eight-wide tree.
+
+use super::Aabb;
+use super::node::{LEAF, Node, STACK, WIDTH};
+use obvhs::aabb::Aabb as ObvhsAabb;
+use obvhs::bvh2::Bvh2;
+use obvhs::bvh2::node::Bvh2Node;
+use obvhs::{Boundable, BvhBuildParams};
+use std::time::Duration;
+
+/// Cost of visiting a leaf of up to eight primitives, relative to visiting a node.
+const LEAF_COST: f32 = 0.7;
+
+/// A wide tree: node 0 is the root; leaf `i` holds the primitives `leaves[i]`.
+#[derive(Debug, Default)]
+pub(super) struct WideTree {
+    pub(super) nodes: Vec<Node>,
+    pub(super) leaves: Vec<Vec<u32>>,
+}
+
+struct Primitive(Aabb);
+
+impl Boundable for Primitive {
+    fn aabb(&self) -> ObvhsAabb {
+        ObvhsAabb::new(self.0.min.into(), self.0.max.into())
+    }
+}
+
+/// Builds a wide tree over boxes, none of them empty.
+pub(super) fn build(boxes: &[Aabb]) -> WideTree {
+    if boxes.is_empty() {
+        return WideTree::default();
+    }
+    let primitives: Vec<Primitive> = boxes.iter().map(|b| Primitive(*b)).collect();
+    let mut params = BvhBuildParams::slow_build();
+    params.max_prims_per_leaf = 1;
+    params.pre_split = false;
+    params.post_collapse_reinsertion_batch_ratio_multiplier = 0.0;
+    let bvh2 = obvhs::bvh2::builder::build_bvh2(&primitives, params, &mut Duration::default());
+    match collapse(&bvh2) {
+        (tree, depth) if depth * (WIDTH - 1) + 1 < STACK => tree,
+        _ => collapse(&balanced(boxes)).0,
+    }
+}
+
+/// Binary tree by median splits: worse to traverse, but never deeper than log₂ n, whatever the geometry.
+fn balanced(boxes: &[Aabb]) -> Bvh2 {
+    let mut tree = Bvh2 { primitive_indices: (0..boxes.len() as u32).collect(), ..Bvh2::default() };
+    tree.nodes.push(Bvh2Node::default());
+    let mut todo = vec![(0usize, 0usize, boxes.len())];
+    while let Some((node, lo, hi)) = todo.pop() {
+        let ids = &mut tree.primitive_indices[lo..hi];
+        let bounds = ids.iter().fold(Aabb::EMPTY, |b, &i| b.union(boxes[i as usize]));
+        let aabb = ObvhsAabb::new(bounds.min.into(), bounds.max.into());
+        if hi - lo == 1 {
+            tree.nodes[node] = Bvh2Node::new(aabb, 1, lo as u32);
+            continue;
+        }
+        let axis = (bounds.max - bounds.min).max_position();
+        let centre = |i: u32| boxes[i as usize].min[axis] * 0.5 + boxes[i as usize].max[axis] * 0.5;
+        let mid = (hi - lo) / 2;
+        ids.select_nth_unstable_by(mid, |&a, &b| centre(a).total_cmp(&centre(b)));
+        let first = tree.nodes.len();
+        tree.nodes[node] = Bvh2Node::new(aabb, 0, first as u32);
+        tree.nodes.extend([Bvh2Node::default(), Bvh2Node::default()]);
+        todo.extend([(first, lo, lo + mid), (first + 1, lo + mid, hi)]);
+    }
+    tree
+}
+
+/// What the dynamic program knows of a binary node: the least cost of its subtree as a forest of at most `i + 1`
+/// wide children, and how to split `i + 1` roots between its two children (0: keep it whole).
+#[derive(Clone)]
+struct Best {
+    cost: [f32; WIDTH - 1],
+    split: [u8; WIDTH],
+    leaf: bool,
+    primitives: u32,
+}
+
+/// Collapses a binary tree to the eight-wide tree of least SAH cost (Ylitie et al. 2017, section 3), and says its
+/// depth.
+fn collapse(bvh2: &Bvh2) -> (WideTree, usize) {
+    let order = preorder(bvh2);
+    let best = plan(bvh2, &order);
+    let mut tree = WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new() };
+    let mut depth = 0;
+    let mut todo = vec![(0usize, 0u32, 1usize)];
+    while let Some((wide, binary, level)) = todo.pop() {
+        depth = depth.max(level);
+        // The children of a wide node: the forest of eight roots; a root that is a leaf stands alone.
+        let mut children = Vec::with_capacity(WIDTH);
+        if best[binary as usize].leaf {
+            children.push(binary);
+        } else {
+            roots_of_children(bvh2, &best, binary, WIDTH, &mut children);
+        }
+        for (lane, &child) in children.iter().enumerate() {
+            let node = &bvh2.nodes[child as usize];
+            for axis in 0..3 {
+                tree.nodes[wide].planes[2 * axis][lane] = node.aabb().min[axis];
+                tree.nodes[wide].planes[2 * axis + 1][lane] = node.aabb().max[axis];
+            }
+            tree.nodes[wide].child[lane] = if best[child as usize].leaf {
+                tree.leaves.push(primitives_of(bvh2, child));
+                (tree.leaves.len() - 1) as u32 | LEAF
+            } else {
+                let index = tree.nodes.len();
+                tree.nodes.push(Node::EMPTY);
+                todo.push((index, child, level + 1));
+                index as u32
+            };
+        }
+    }
+    (tree, depth)
+}
+
+fn preorder(bvh2: &Bvh2) -> Vec<u32> {
+    let mut order = Vec::with_capacity(bvh2.nodes.len());
+    let mut todo = vec![0u32];
+    while let Some(i) = todo.pop() {
+        order.push(i);
+        let node = &bvh2.nodes[i as usize];
+        if !node.is_leaf() {
+            todo.extend([node.first_index, node.first_index + 1]);
+        }
+    }
+    order
+}
+
+/// Fills the dynamic program from the leaves up.
+fn plan(bvh2: &Bvh2, preorder: &[u32]) -> Vec<Best> {
+    let unknown = Best { cost: [0.0; WIDTH - 1], split: [0; WIDTH], leaf: true, primitives: 0 };
+    let mut best = vec![unknown; bvh2.nodes.len()];
+    for &i in preorder.iter().rev() {
+        let node = &bvh2.nodes[i as usize];
+        let area = node.aabb().half_area();
+        if node.is_leaf() {
+            let own = &mut best[i as usize];
+            own.cost = [area * LEAF_COST; WIDTH - 1];
+            own.primitives = node.prim_count;
+            continue;
+        }
+        let (left, right) = (&best[node.first_index as usize], &best[node.first_index as usize + 1]);
+        let mut own = best[i as usize].clone();
+        own.primitives = left.primitives + right.primitives;
+        // Distribute j roots over the two children, for every j.
+        let mut distributed = [f32::INFINITY; WIDTH + 1];
+        for j in 2..=WIDTH {
+            own.split[j - 1] = 1;
+            for k in 1..j {
+                let cost = left.cost[(k - 1).min(WIDTH - 2)] + right.cost[(j - k - 1).min(WIDTH - 2)];
+                if cost < distributed[j] {
+                    distributed[j] = cost;
+                    own.split[j - 1] = k as u8;
+                }
+            }
+        }
+        // As one root: a leaf, or a node with eight roots below it.
+        let as_leaf = if own.primitives as usize <= WIDTH { area * LEAF_COST } else { f32::INFINITY };
+        let as_node = distributed[WIDTH] + area;
+        own.leaf = own.primitives as usize <= WIDTH && (as_leaf <= as_node || as_node.is_nan());
+        own.cost[0] = as_leaf.min(as_node);
+        // As up to j roots.
+        for j in 2..WIDTH {
+            own.cost[j - 1] = own.cost[j - 2].min(distributed[j]);
+            if distributed[j] >= own.cost[j - 2] {
+                own.split[j - 1] = 0;
+            }
+        }
+        best[i as usize] = own;
+    }
+    best
+}
+
+/// The at most `j` roots that stand for the two children of `binary`.
+fn roots_of_children(bvh2: &Bvh2, best: &[Best], binary: u32, j: usize, out: &mut Vec<u32>) {
+    let k = best[binary as usize].split[j - 1].max(1) as usize;
+    let first = bvh2.nodes[binary as usize].first_index;
+    roots(bvh2, best, first, k, out);
+    roots(bvh2, best, first + 1, j - k, out);
+}
+
+/// The at most `j` < 8 roots that stand for the subtree of `binary`.
+fn roots(bvh2: &Bvh2, best: &[Best], binary: u32, mut j: usize, out: &mut Vec<u32>) {
+    if bvh2.nodes[binary as usize].is_leaf() {
+        return out.push(binary);
+    }
+    while j > 1 && best[binary as usize].split[j - 1] == 0 {
+        j -= 1;
+    }
+    if j == 1 { out.push(binary) } else { roots_of_children(bvh2, best, binary, j, out) }
+}
+
+fn primitives_of(bvh2: &Bvh2, root: u32) -> Vec<u32> {
+    let mut found = Vec::with_capacity(WIDTH);
+    let mut todo = vec![root];
+    while let Some(i) = todo.pop() {
+        let node = &bvh2.nodes[i as usize];
+        if node.is_leaf() {
+            let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
+            found.extend(&bvh2.primitive_indices[range]);
+        } else {
+            todo.extend([node.first_index, node.first_index + 1]);
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn line(n: usize) -> Vec<Aabb> {
+        // Sizes that grow geometrically make the deepest trees.
+        (0..n)
+            .map(|i| {
+                let x = 1.5f32.powi((i % 150) as i32) * if i % 2 == 0 { 1.0 } else { -1.0 };
+                Aabb { min: Vec3::new(x, 0.0, 0.0), max: Vec3::new(x + x.abs() * 0.1, 1.0, 1.0) }
+            })
+            .collect()
+    }
+
+    fn check(tree: &WideTree, boxes: &[Aabb]) {
+        let mut seen = vec![0; boxes.len()];
+        let mut todo = vec![0u32];
+        while let Some(n) = todo.pop() {
+            let node = &tree.nodes[n as usize];
+            for lane in 0..WIDTH {
+                match node.child[lane] {
+                    super::super::node::NONE => {}
+                    leaf if leaf & LEAF != 0 => {
+                        let ids = &tree.leaves[(leaf & !LEAF) as usize];
+                        assert!(!ids.is_empty() && ids.len() <= WIDTH);
+                        for &i in ids {
+                            seen[i as usize] += 1;
+                            for axis in 0..3 {
+                                assert!(node.planes[2 * axis][lane] <= boxes[i as usize].min[axis]);
+                                assert!(node.planes[2 * axis + 1][lane] >= boxes[i as usize].max[axis]);
+                            }
+                        }
+                    }
+                    inner => todo.push(inner),
+                }
+            }
+        }
+        assert!(seen.iter().all(|&n| n == 1), "every primitive stands in exactly one leaf");
+    }
+
+    #[test]
+    fn every_primitive_is_in_one_leaf_inside_its_box() {
+        for n in [1, 2, 7, 8, 9, 63, 1000] {
+            check(&build(&line(n)), &line(n));
+            check(&collapse(&balanced(&line(n))).0, &line(n));
+        }
+    }
+
+    #[test]
+    fn balanced_trees_are_shallow() {
+        let (_, depth) = collapse(&balanced(&line(5000)));
+        assert!(depth * (WIDTH - 1) + 1 < STACK, "depth {depth}");
+    }
+
+    #[test]
+    fn coincident_and_enormous_boxes_survive() {
+        let same = vec![Aabb { min: Vec3::ONE, max: Vec3::ONE }; 300];
+        check(&build(&same), &same);
+        let huge = vec![Aabb { min: Vec3::splat(-3e38), max: Vec3::splat(3e38) }; 20];
+        check(&build(&huge), &huge);
+    }
+}

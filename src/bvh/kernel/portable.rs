@@ -1,0 +1,5 @@
+//! The kernels for any target.
+
+use super::lanes::Lanes;
+
+super::traverse::kernels!();

@@ -1,0 +1,38 @@
+//! A ray prepared for slabs and triangles.
+
+use crate::math::Ray;
+use glam::Vec3;
+
+/// A ray with what every box and triangle test of it shares.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::bvh) struct KernelRay {
+    pub(in crate::bvh) o: [f32; 3],
+    pub(in crate::bvh) d_inv: [f32; 3],
+    /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
+    pub(in crate::bvh) near: [usize; 3],
+    /// Permutation of the axes: the third is the one along which the direction is longest (Woop et al. 2013).
+    pub(in crate::bvh) axes: [usize; 3],
+    /// Shear that maps the direction to the third axis.
+    pub(in crate::bvh) shear: [f32; 3],
+    pub(in crate::bvh) t_max: f32,
+}
+
+impl KernelRay {
+    #[inline]
+    pub(in crate::bvh) fn new(ray: &Ray) -> Self {
+        let Ray { o, d, t_max } = *ray;
+        let d_inv = Vec3::ONE / d;
+        let kz = d.abs().max_position();
+        let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
+        // Swapping keeps the winding of triangles.
+        let (kx, ky) = if d[kz] < 0.0 { (ky, kx) } else { (kx, ky) };
+        Self {
+            o: o.to_array(),
+            d_inv: d_inv.to_array(),
+            near: std::array::from_fn(|axis| 2 * axis + usize::from(d_inv[axis] < 0.0)),
+            axes: [kx, ky, kz],
+            shear: [d[kx] / d[kz], d[ky] / d[kz], 1.0 / d[kz]],
+            t_max,
+        }
+    }
+}

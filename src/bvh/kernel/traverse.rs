@@ -1,0 +1,166 @@
+//! The one text of the kernels, for a type `Lanes` of eight f32 and the attributes of its instruction set.
+
+/// `nearest` and `occluded` for the `Lanes` in scope.
+macro_rules! kernels {
+    ($(#[$isa:meta])?) => {
+        use super::KernelRay;
+        use crate::bvh::node::{LEAF, Node, STACK, TriangleLeaf};
+        use crate::bvh::triangles::TriangleHit;
+
+        /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
+        const FAR: f32 = 1.0 + 4e-7;
+
+        /// Lanes whose box the ray meets before `t_max`, and where it enters them.
+        #[inline]
+        $(#[$isa])?
+        fn boxes(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, Lanes) {
+            let slab = |axis: usize, plane: usize| {
+                Lanes::load(&node.planes[plane]).sub(Lanes::splat(ray.o[axis])).mul(Lanes::splat(ray.d_inv[axis]))
+            };
+            // 0 · ∞ (a ray inside the plane of a slab) is NaN: min and max then keep their second operand.
+            let mut near = Lanes::splat(0.0);
+            let mut far = Lanes::splat(t_max);
+            for axis in 0..3 {
+                near = slab(axis, ray.near[axis] & 7).max(near);
+                far = slab(axis, (ray.near[axis] ^ 1) & 7).mul(Lanes::splat(FAR)).min(far);
+            }
+            (near.le(far), near)
+        }
+
+        /// Lanes whose triangle the ray hits in (0, t_max), with t and the barycentric coordinates of v1 and v2.
+        ///
+        /// Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection": in the sheared space the ray is the
+        /// third axis and vertices are points of the plane, the same for all triangles that share them. A rounded
+        /// difference of products has the right sign unless it is 0; zeros are decided in f64.
+        #[inline]
+        $(#[$isa])?
+        fn triangles(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, Lanes, Lanes, Lanes) {
+            let [kx, ky, kz] = ray.axes;
+            let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
+            let [sx, sy, sz] = ray.shear.map(|s| s);
+            let (sx, sy, sz) = (Lanes::splat(sx), Lanes::splat(sy), Lanes::splat(sz));
+            let (ox, oy, oz) = (Lanes::splat(ray.o[kx]), Lanes::splat(ray.o[ky]), Lanes::splat(ray.o[kz]));
+            let vertex = |i: usize| {
+                let z = Lanes::load(&leaf.v[i][kz]).sub(oz);
+                let x = Lanes::load(&leaf.v[i][kx]).sub(ox).sub(sx.mul(z));
+                let y = Lanes::load(&leaf.v[i][ky]).sub(oy).sub(sy.mul(z));
+                (x, y, z.mul(sz))
+            };
+            let ((ax, ay, az), (bx, by, bz), (cx, cy, cz)) = (vertex(0), vertex(1), vertex(2));
+            let mut u = cx.mul(by).sub(cy.mul(bx));
+            let mut v = ax.mul(cy).sub(ay.mul(cx));
+            let mut w = bx.mul(ay).sub(by.mul(ax));
+            let zero = Lanes::splat(0.0);
+            if u.eq(zero) | v.eq(zero) | w.eq(zero) != 0 {
+                let exact = |a: Lanes, b: Lanes, c: Lanes, d: Lanes| {
+                    let (a, b, c, d) = (a.to_array(), b.to_array(), c.to_array(), d.to_array());
+                    Lanes::load(&std::array::from_fn(|i| {
+                        (f64::from(a[i]) * f64::from(b[i]) - f64::from(c[i]) * f64::from(d[i])) as f32
+                    }))
+                };
+                u = exact(cx, by, cy, bx);
+                v = exact(ax, cy, ay, cx);
+                w = exact(bx, ay, by, ax);
+            }
+            let negative = u.lt(zero) | v.lt(zero) | w.lt(zero);
+            let positive = zero.lt(u) | zero.lt(v) | zero.lt(w);
+            let candidates = !(negative & positive) & (negative | positive) & 0xff;
+            if candidates == 0 {
+                return (0, zero, zero, zero);
+            }
+            let det = u.add(v).add(w);
+            let t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
+            let hits = candidates & zero.lt(t) & t.lt(Lanes::splat(t_max));
+            (hits, t, v.div(det), w.div(det))
+        }
+
+        /// Sorts up to eight keys, the farthest first: children are visited from the end.
+        #[inline]
+        fn sort_descending(keys: &mut [(f32, u32)]) {
+            for i in 1..keys.len() {
+                let mut j = i;
+                while j > 0 && keys[j - 1].0 < keys[j].0 {
+                    keys.swap(j - 1, j);
+                    j -= 1;
+                }
+            }
+        }
+
+        /// Nearest hit; see [`super::nearest`].
+        $(#[$isa])?
+        pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay, hit: &mut TriangleHit) -> bool {
+            let mut stack = [(0f32, 0u32); STACK];
+            let mut size = 1;
+            let mut t_max = ray.t_max;
+            let mut found = false;
+            while size > 0 {
+                size -= 1;
+                let (near, child) = stack[size];
+                if near > t_max {
+                    continue;
+                }
+                if child & LEAF != 0 {
+                    // Keep the nearest triangle of the leaf.
+                    let leaf = &leaves[(child & !LEAF) as usize];
+                    let (mut hits, t, u, v) = triangles(leaf, ray, t_max);
+                    if hits != 0 {
+                        let (t, u, v) = (t.to_array(), u.to_array(), v.to_array());
+                        while hits != 0 {
+                            let lane = hits.trailing_zeros() as usize & 7;
+                            hits &= hits - 1;
+                            if t[lane] < t_max {
+                                t_max = t[lane];
+                                *hit = TriangleHit { t: t[lane], u: u[lane], v: v[lane], triangle: leaf.id[lane] };
+                                found = true;
+                            }
+                        }
+                    }
+                    continue;
+                }
+                // Push the children that are met, the nearest on top.
+                let node = &nodes[child as usize];
+                let (mut met, near) = boxes(node, ray, t_max);
+                let near = near.to_array();
+                let first = size;
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize & 7;
+                    met &= met - 1;
+                    stack[size] = (near[lane], node.child[lane]);
+                    size += 1;
+                }
+                if size - first > 1 {
+                    sort_descending(&mut stack[first..size]);
+                }
+            }
+            found
+        }
+
+        /// Any hit; see [`super::occluded`].
+        $(#[$isa])?
+        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
+            let mut stack = [0u32; STACK];
+            let mut size = 1;
+            while size > 0 {
+                size -= 1;
+                let child = stack[size];
+                if child & LEAF != 0 {
+                    if triangles(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
+                        return true;
+                    }
+                    continue;
+                }
+                let node = &nodes[child as usize];
+                let (mut met, _) = boxes(node, ray, ray.t_max);
+                while met != 0 {
+                    let lane = met.trailing_zeros() as usize & 7;
+                    met &= met - 1;
+                    stack[size] = node.child[lane];
+                    size += 1;
+                }
+            }
+            false
+        }
+    };
+}
+
+pub(super) use kernels;

@@ -1,0 +1,88 @@
+//! Triangles in a hierarchy.
+
+use super::Aabb;
+use super::build::build;
+use super::kernel::{self, Isa, KernelRay};
+use super::node::{Node, TriangleLeaf};
+use crate::math::Ray;
+use glam::Vec3;
+
+/// Where a ray met a triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct TriangleHit {
+    /// Ray parameter.
+    pub t: f32,
+    /// Barycentric coordinate of the second vertex.
+    pub u: f32,
+    /// Barycentric coordinate of the third vertex.
+    pub v: f32,
+    /// Which triangle.
+    pub triangle: u32,
+}
+
+/// Triangles that rays can ask two questions.
+#[derive(Debug)]
+pub struct TriangleBvh {
+    nodes: Vec<Node>,
+    leaves: Vec<TriangleLeaf>,
+    bounds: Aabb,
+    isa: Isa,
+}
+
+impl TriangleBvh {
+    /// Builds over `indices` into `positions` (in range, finite).
+    pub fn build(positions: &[Vec3], indices: &[[u32; 3]]) -> Self {
+        let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
+        let boxes: Vec<Aabb> = indices.iter().map(|t| Aabb::of(corners(t))).collect();
+        let tree = build(&boxes);
+        let leaves = tree.leaves.iter().map(|ids| {
+            let mut leaf = TriangleLeaf::EMPTY;
+            for (lane, &id) in ids.iter().enumerate() {
+                leaf.id[lane] = id;
+                for (i, p) in corners(&indices[id as usize]).into_iter().enumerate() {
+                    for axis in 0..3 {
+                        leaf.v[i][axis][lane] = p[axis];
+                    }
+                }
+            }
+            leaf
+        });
+        Self {
+            leaves: leaves.collect(),
+            bounds: boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b)),
+            nodes: tree.nodes,
+            isa: Isa::detect(),
+        }
+    }
+
+    /// The same tree, traversed by another kernel; `None` where this CPU does not run it.
+    pub fn with_isa(mut self, isa: Isa) -> Option<Self> {
+        self.isa = isa;
+        isa.is_available().then_some(self)
+    }
+
+    /// The nearest hit in (0, `ray.t_max`).
+    #[inline]
+    pub fn nearest(&self, ray: &Ray) -> Option<TriangleHit> {
+        let mut hit = TriangleHit::default();
+        let found = !self.nodes.is_empty()
+            && kernel::nearest(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray), &mut hit);
+        found.then_some(hit)
+    }
+
+    /// Whether anything is hit in (0, `ray.t_max`).
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray))
+    }
+
+    /// Box about all triangles.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    /// Bytes of nodes and leaves.
+    pub fn memory(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
+    }
+}
