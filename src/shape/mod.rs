@@ -1,6 +1,20 @@
 //! Shapes: how rays meet them and how points on them are drawn.
+//!
+//! Triangles come in meshes, whose rays are answered by [`crate::bvh`]; here is what is known of one triangle and one
+//! hit. Quadrics answer for themselves, in f64, so that a hit is known to half a unit in the last place of f32.
 
-use glam::{Vec2, Vec3, Vec4};
+mod placed;
+mod quadric;
+mod triangle;
+
+pub use placed::PlacedQuadric;
+pub use quadric::{Quadric, QuadricPoint};
+pub use triangle::{
+    TriangleAttributes, TriangleHit, interpolate, intersect_triangle, triangle_area, triangle_normal, triangle_surface,
+};
+
+use crate::math::{Transform, gamma};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 
 /// A point of a surface with what shading needs, in world space (or object space before it is placed).
 #[derive(Clone, Copy, Debug)]
@@ -21,4 +35,39 @@ pub struct Surface {
     pub uv: [Vec2; 2],
     /// Vertex colour, linear RGBA; 1 where there is none.
     pub color: Vec4,
+}
+
+impl Surface {
+    /// From object space to the world. The error bound grows by the rounding of the map (PBRT 4th ed., section 6.8.4)
+    /// and by that of the way back, so that a ray whose origin was moved out of the world-space box
+    /// ([`crate::math::offset_origin`]) is still on its side of the surface after its origin was transformed to object
+    /// space in f32:
+    ///
+    /// ```text
+    /// δ' = (1 + γ₃) |M| δ + γ₃ (|M| |p| + |T|) + |M| γ₅ (|M⁻¹| |p'| + |T'|)
+    /// ```
+    pub fn to_world(&self, transform: &Transform) -> Self {
+        let (m, inverse) = (&transform.to_world, &transform.to_object);
+        let (m_abs, inverse_abs) = (m.matrix3.abs(), inverse.matrix3.abs());
+        let p = m.transform_point3(self.p);
+        let forth = m_abs * Vec3A::from(self.p.abs()) + m.translation.abs();
+        let back = m_abs * (inverse_abs * Vec3A::from(p.abs()) + inverse.translation.abs());
+        let p_error = (1.0 + gamma(3)) * (m_abs * self.p_error) + gamma(3) * Vec3::from(forth);
+        let mirror = if transform.mirrors() { -1.0 } else { 1.0 };
+        Self {
+            p,
+            p_error: p_error + gamma(5) * Vec3::from(back),
+            ng: unit_or(transform.normal_to_world(self.ng), self.ng),
+            ns: unit_or(transform.normal_to_world(self.ns), self.ns),
+            tangent: m.transform_vector3(self.tangent),
+            handedness: self.handedness * mirror,
+            ..*self
+        }
+    }
+}
+
+/// `v` normalised, or `otherwise` where it has no direction. In f64, so that no square under- or overflows.
+#[inline]
+fn unit_or(v: Vec3, otherwise: Vec3) -> Vec3 {
+    v.as_dvec3().try_normalize().map_or(otherwise, |n| n.as_vec3())
 }
