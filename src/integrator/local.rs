@@ -20,7 +20,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         watch.escaped(0, ray, Spectrum::ONE);
         return sample;
     };
-    sample.radiance = emitted(method, ray, &vertex, Drawn::Camera);
+    sample.radiance = emitted(method, &vertex, Drawn::Camera);
     watch.light(sample.radiance, &none);
     let shading = method.scene.shade(&vertex);
     watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
@@ -61,13 +61,13 @@ pub(super) fn reflected<O: Observer>(
     // By direction, as far as the first surface.
     let Some(next) = strategy::sample(method, &shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { return sum };
     let Some(ray) = shading.leave(vertex, next.wi) else { return sum };
-    let drawn = next.pdf.into();
+    let drawn = Drawn::new(next.pdf, vertex.surface.p);
     if !keep(drawn) {
         return sum;
     }
     watch.ray();
     let le = match scene.intersect(&ray, &mut || sampler.next_1d()) {
-        Some(end) => emitted(method, &ray, &end, drawn),
+        Some(end) => emitted(method, &end, drawn),
         None => environment(method, &ray, drawn),
     };
     let light = next.weight * le;

@@ -27,6 +27,7 @@ use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading, Vertex};
 use crate::spectrum::Spectrum;
+use glam::Vec3;
 
 /// What an estimator needs to know beside the ray.
 #[derive(Clone, Copy, Debug)]
@@ -157,12 +158,12 @@ pub fn direct_light<O: Observer>(
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would
 /// have drawn the same direction.
-fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce() -> f32) -> f32 {
+fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce(Vec3) -> f32) -> f32 {
     match (drawn, strategy) {
         (Drawn::Camera | Drawn::Delta, _) => 1.0,
         (_, Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => 1.0,
-        (Drawn::Smooth { pdf }, Strategy::Mis) => power_heuristic(pdf, light_pdf()),
-        (Drawn::Smooth { .. }, Strategy::Light) => f32::from(light_pdf() == 0.0),
+        (Drawn::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(from)),
+        (Drawn::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(from) == 0.0),
     }
 }
 
@@ -179,7 +180,7 @@ pub fn power_heuristic(a: f32, b: f32) -> f32 {
 }
 
 /// Le that the ray's end sends back, weighted for how the ray was drawn; with the light it belongs to.
-fn emitted(method: &Method, ray: &Ray, vertex: &Vertex, drawn: Drawn) -> Spectrum {
+fn emitted(method: &Method, vertex: &Vertex, drawn: Drawn) -> Spectrum {
     let scene = method.scene;
     let Some(light) = vertex.light else { return Spectrum::ZERO };
     let le = scene.emission(vertex);
@@ -187,7 +188,7 @@ fn emitted(method: &Method, ray: &Ray, vertex: &Vertex, drawn: Drawn) -> Spectru
         return Spectrum::ZERO;
     }
     let s = &vertex.surface;
-    le * weight_of_hit(method.strategy, drawn, || scene.lights.pdf_hit(light, ray.o, s.p, s.ng))
+    le * weight_of_hit(method.strategy, drawn, |from| scene.lights.pdf_hit(light, from, s.p, s.ng))
 }
 
 /// Light from infinity along a ray that met nothing.
@@ -197,7 +198,7 @@ fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
     if le.is_black() {
         return Spectrum::ZERO;
     }
-    le * weight_of_hit(method.strategy, drawn, || lights.environment_pdf(ray.d))
+    le * weight_of_hit(method.strategy, drawn, |_| lights.environment_pdf(ray.d))
 }
 
 /// Whether `bsdf` reflects light that the light sampler finds.

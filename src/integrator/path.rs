@@ -31,7 +31,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         };
 
         // Le
-        let light = beta * emitted(method, &ray, &vertex, drawn);
+        let light = beta * emitted(method, &vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
 
@@ -61,7 +61,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
-        drawn = next.pdf.into();
+        drawn = Drawn::new(next.pdf, vertex.surface.p);
         ray = leaving;
         watch.drawn(drawn, beta);
         if O::CLASSES {

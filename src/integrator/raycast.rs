@@ -17,7 +17,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
             watch.escaped(0, ray, Spectrum::ONE);
         }
         Some(vertex) => {
-            sample.radiance = emitted(method, ray, &vertex, Drawn::Camera);
+            sample.radiance = emitted(method, &vertex, Drawn::Camera);
             let shading = method.scene.shade(&vertex);
             watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
             first_surface(&mut sample, ray, &vertex, &shading);

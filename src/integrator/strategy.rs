@@ -18,13 +18,17 @@ pub enum Drawn {
     Smooth {
         /// \[1/sr\]
         pdf: f32,
+        /// The surface point: where the light sampler would have stood (the ray's origin is off the surface).
+        from: Vec3,
     },
 }
 
-impl From<Pdf> for Drawn {
-    fn from(pdf: Pdf) -> Self {
+impl Drawn {
+    /// From the density of a draw at the surface point `from`.
+    #[inline]
+    pub fn new(pdf: Pdf, from: Vec3) -> Self {
         match pdf {
-            Pdf::SolidAngle(pdf) => Self::Smooth { pdf },
+            Pdf::SolidAngle(pdf) => Self::Smooth { pdf, from },
             Pdf::Discrete(_) => Self::Delta,
         }
     }

@@ -27,7 +27,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
             watch.escaped(depth, &ray, beta);
             continue;
         };
-        let light = beta * emitted(method, &ray, &vertex, drawn);
+        let light = beta * emitted(method, &vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
         let shading = scene.shade(&vertex);

@@ -4,7 +4,7 @@ use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
 use super::{Info, Scene};
 use crate::bvh::TriangleBvh;
 use crate::desc::{self, Error, Mesh, Object, Shape};
-use crate::light::{Light, Lights};
+use crate::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
 use crate::material::Material;
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric};
@@ -26,12 +26,13 @@ impl Scene {
         for object in &desc.objects {
             builder.place(object)?;
         }
-        let Builder { materials, parts, prototypes, instances, quadrics, mut lights, .. } = builder;
+        let Builder { materials, parts, prototypes, instances, quadrics, emitters, mut lights, .. } = builder;
         let geometry = Geometry::new(parts, prototypes, instances, quadrics);
 
         // Lights without a surface.
         lights.extend(desc.lights.iter().map(Light::from_desc));
-        lights.extend(desc.environment.as_ref().map(|e| Light::environment(e, &desc.images)));
+        let image = |e: &desc::Environment| e.image.map(|i| &*desc.images[i]);
+        lights.extend(desc.environment.iter().map(|e| Light::Environment(Box::new(Environment::new(e, image(e))))));
         let bounds = geometry.bounds();
         let (center, radius) = if bounds.is_empty() {
             (glam::Vec3::ZERO, 1.0)
@@ -51,7 +52,7 @@ impl Scene {
             instances,
             quadrics,
             materials: desc.materials.iter().map(|m| m.name.clone()).collect(),
-            lights: lights.len(),
+            lights: lights.all().len(),
             textures: textures.len(),
             mesh_bytes,
             bvh_bytes,
@@ -63,6 +64,7 @@ impl Scene {
             materials: compiled,
             textures,
             lights,
+            emitters,
             cameras: desc.cameras.clone(),
             info,
         })
@@ -82,6 +84,7 @@ struct Builder<'a> {
     uses: Vec<usize>,
     instances: Vec<Instance>,
     quadrics: Vec<(PlacedQuadric, Owner)>,
+    emitters: Vec<Option<u32>>,
     lights: Vec<Light>,
 }
 
@@ -98,6 +101,7 @@ impl<'a> Builder<'a> {
             uses,
             instances: Vec::new(),
             quadrics: Vec::new(),
+            emitters: Vec::new(),
             lights: Vec::new(),
         }
     }
@@ -113,16 +117,17 @@ impl<'a> Builder<'a> {
         let flip = transform.mirrors() != object.reversed;
         match &self.desc.shapes[object.shape] {
             Shape::Mesh(mesh) => {
-                let light = emission.map(|emission| {
-                    let first = self.lights.len() as u32;
+                let emitter = emission.map(|emission| {
+                    let first = self.emitters.len() as u32;
                     for triangle in 0..mesh.indices.len() as u32 {
                         let (p, attributes) = corners(mesh, triangle);
                         let p = p.map(|p| transform.to_world.transform_point3(p));
-                        self.lights.push(Light::triangle(p, &attributes, flip, emission));
+                        let light = TriangleLight::new(p, &attributes, flip, &emission);
+                        self.emit(light.map(Light::Triangle));
                     }
                     first
                 });
-                let owner = Owner { material, light };
+                let owner = Owner { material, emitter };
                 let uses = self.uses[object.shape];
                 if uses == 1 || uses * mesh.indices.len() <= FEW_TRIANGLES {
                     self.parts.push(Part { mesh: to_world(mesh, &transform), owner, flip });
@@ -138,15 +143,21 @@ impl<'a> Builder<'a> {
             shape => {
                 if let Some(quadric) = Quadric::from_desc(shape) {
                     let placed = PlacedQuadric::new(quadric, transform, object.reversed);
-                    let light = emission.map(|emission| {
-                        self.lights.push(Light::quadric(placed, emission));
-                        (self.lights.len() - 1) as u32
+                    let emitter = emission.map(|emission| {
+                        self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, &emission)))));
+                        (self.emitters.len() - 1) as u32
                     });
-                    self.quadrics.push((placed, Owner { material, light }));
+                    self.quadrics.push((placed, Owner { material, emitter }));
                 }
             }
         }
         Ok(())
+    }
+
+    /// Lists an emitter and, where it can emit, its light.
+    fn emit(&mut self, light: Option<Light>) {
+        self.emitters.push(light.is_some().then_some(self.lights.len() as u32));
+        self.lights.extend(light);
     }
 
     /// The object's material, with the object's own emission where it has one.

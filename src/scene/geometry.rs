@@ -11,8 +11,8 @@ use glam::{Mat3A, Vec3, Vec4};
 pub struct Owner {
     /// Which material.
     pub material: u32,
-    /// The light of the surface; of a mesh, the light of its first triangle.
-    pub light: Option<u32>,
+    /// Place in the scene's list of emitters; of a mesh, that of its first triangle.
+    pub emitter: Option<u32>,
 }
 
 /// A mesh that stands once, in world space.
@@ -150,7 +150,7 @@ impl Geometry {
         }
     }
 
-    /// The surface at a hit of `ray`, and whose it is (with the light of this very triangle).
+    /// The surface at a hit of `ray`, and whose it is (with the emitter of this very triangle).
     #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
         let [u, v] = hit.uv;
@@ -198,7 +198,7 @@ impl Geometry {
 
 impl Owner {
     fn of_triangle(self, triangle: u32) -> Self {
-        Self { light: self.light.map(|first| first + triangle), ..self }
+        Self { emitter: self.emitter.map(|first| first + triangle), ..self }
     }
 }
 

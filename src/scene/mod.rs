@@ -29,6 +29,8 @@ pub struct Scene {
     pub textures: Textures,
     /// Lights; [`Vertex::light`] indexes them.
     pub lights: Lights,
+    /// Light of each emissive triangle and quadric; none where a triangle has no area in the world.
+    emitters: Vec<Option<u32>>,
     /// Cameras as written: the resolution decides how they become rays.
     pub cameras: Vec<desc::Camera>,
     /// Some material has holes, so that a shadow ray must look at what it meets.
@@ -76,11 +78,7 @@ impl Scene {
     pub fn visibility(&self, vertex: &Vertex, light: &LightSample) -> f32 {
         let s = &vertex.surface;
         let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
-        let mut ray = match light.end {
-            // Between two points, both already moved off their surfaces: the ray ends just before the second.
-            Some(end) => Ray { o, d: end - o, t_max: 1.0 - 4.0 * f32::EPSILON },
-            None => Ray::new(o, light.wi),
-        };
+        let mut ray = Ray { o, d: light.wi, t_max: light.distance };
         if !self.has_holes {
             return if self.geometry.occluded(&ray) { 0.0 } else { 1.0 };
         }
@@ -120,7 +118,8 @@ impl Scene {
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let (surface, owner) = self.geometry.surface(ray, hit);
         let wo = -ray.d.normalize();
-        Vertex { surface, wo, material: owner.material, light: owner.light, front: wo.dot(surface.ng) > 0.0 }
+        let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
+        Vertex { surface, wo, material: owner.material, light, front: wo.dot(surface.ng) > 0.0 }
     }
 
     fn coverage(&self, vertex: &Vertex) -> f32 {

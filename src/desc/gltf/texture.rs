@@ -1,5 +1,6 @@
 //! Textures, samplers and images.
 
+use std::sync::Arc;
 use super::Reader;
 use crate::desc::{Error, Pixels, Texture, TextureRef, Wrap, image_file};
 use glam::{Affine2, Mat2, Vec2};
@@ -117,7 +118,7 @@ impl Reader<'_> {
         };
         let pixels = u64::from(decoded.size[0]) * u64::from(decoded.size[1]);
         self.budget.pixels(self.source, &place, texel * pixels)?;
-        self.scene.images.push(decoded);
+        self.scene.images.push(Arc::new(decoded));
         self.images.insert(index, self.scene.images.len() - 1);
         Ok(self.scene.images.len() - 1)
     }
