@@ -265,7 +265,7 @@ impl<'a> Tracer<'a> {
     fn tile(&self, area: Area, first: u64) -> Tile {
         let mut tile = Tile { area, pixels: Vec::new(), samples: 0, rays: 0, bad: Vec::new() };
         for (x, y) in positions(area) {
-            let mut sums = Accumulator::new();
+            let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
                 let mut count = RayCount(0);
                 let mut sample = if self.settings.transport {
