@@ -14,10 +14,6 @@ pub struct Classes {
 }
 
 impl Classes {
-    /// Names of the classes in the order of [`split`](Self::split). `SD`: reflected specularly, then diffusely, then
-    /// seen: a caustic.
-    pub const NAMES: [&'static str; 7] = ["emission", "D", "S", "DD", "SD", "DS", "SS"];
-
     /// After one more reflection, of whose `value` the part `specular` is specular lobes'.
     #[must_use]
     pub fn reflected(mut self, value: Spectrum, specular: Spectrum) -> Self {
@@ -28,7 +24,8 @@ impl Classes {
         self
     }
 
-    /// Adds `radiance` to its classes.
+    /// Adds `radiance` to its classes, in the order of [`crate::film::CLASSES`]. `SD`: reflected specularly, then
+    /// diffusely, then seen: a caustic.
     pub fn split(&self, radiance: Spectrum, to: &mut [Spectrum; 7]) {
         let [s1, s2] = self.specular;
         match self.reflections {
