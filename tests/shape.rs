@@ -164,8 +164,9 @@ proptest! {
         let again = shape.intersect(&Ray::new(q, w));
         let flat = matches!(shape.quadric, Quadric::Disk { .. });
         if flat || outside {
-            // Disks and the outsides of convex surfaces do not see themselves.
-            prop_assert_eq!(again, None);
+            // Disks and the outsides of convex surfaces do not see themselves. On which side of a plane a direction
+            // lies that is parallel to it up to the rounding of its normal, nobody can say.
+            prop_assert!(again.is_none() || (flat && height.abs() < 3e-7), "met itself at {again:?}");
         } else {
             // From inside, the chord through the point, exact in object space: t = −2 (p·d)/(d·d), cylinders without z.
             let flatten = |x: DVec3| if matches!(shape.quadric, Quadric::Sphere { .. }) { x } else { x.with_z(0.0) };
