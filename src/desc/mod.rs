@@ -5,6 +5,7 @@ mod camera;
 mod error;
 mod expect;
 pub mod files;
+pub mod gltf;
 pub mod image_file;
 mod load;
 mod material;
