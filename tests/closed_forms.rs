@@ -68,7 +68,16 @@ fn check(name: &str, scene: &Scene, size: [u32; 2], expect: &Expect, family: &mu
                 let film = film(scene, &s);
                 for (what, exact, read) in quantities(expect) {
                     let label = format!("{name} {what} {integrator:?}/{strategy:?}/{sampler:?}");
-                    compare(&label, &film, region, exact, f64::from(s.spp / REPLICATE), expect.tolerance, &read, family);
+                    compare(
+                        &label,
+                        &film,
+                        region,
+                        exact,
+                        f64::from(s.spp / REPLICATE),
+                        expect.tolerance,
+                        &read,
+                        family,
+                    );
                 }
             }
         }

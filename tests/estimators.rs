@@ -94,7 +94,8 @@ mod whitted_paths {
         for path in ["scenes/glass-caustics.toml", "scenes/transport-ds.toml", "scenes/transport-ss.toml"] {
             let (scene, base) = small(path, 2048);
             let whitted = film(&scene, &Settings { integrator: Integrator::Whitted, spp: 512, ..base.clone() });
-            let method = Method { scene: &scene, integrator: Integrator::Path, strategy: Strategy::Mis, max_depth: u32::MAX };
+            let method =
+                Method { scene: &scene, integrator: Integrator::Path, strategy: Strategy::Mis, max_depth: u32::MAX };
             let camera = Camera::new(&scene.cameras[0], base.size);
             let of_pixel = |x: u32, y: u32| {
                 let mut m = Moments::default();

@@ -1,5 +1,6 @@
 //! Textures, samplers and images.
 
+use std::sync::Arc;
 use super::Reader;
 use crate::desc::{Error, Pixels, Texture, TextureRef, Wrap, image_file};
 use glam::{Affine2, Mat2, Vec2};
@@ -7,7 +8,6 @@ use gltf::json;
 use json::extensions::texture::TextureTransform;
 use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
-use std::sync::Arc;
 
 /// The four kinds of texture reference of the document, which differ by name only.
 pub(super) struct Slot<'a> {
