@@ -8,9 +8,12 @@ pub mod files;
 pub mod image_file;
 mod load;
 mod material;
+mod mesh_check;
+mod place;
 pub mod primitives;
 mod settings;
 mod shape;
+pub mod toml;
 
 pub use camera::{Camera, Fov, Lens, Projection};
 pub use error::{Error, ErrorKind};
