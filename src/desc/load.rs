@@ -1,19 +1,24 @@
 //! One door for all formats.
 
-use super::{Error, Scene, toml};
+use super::{Error, Scene, complete, obj, ply, toml};
 use std::path::Path;
 
-/// Reads a scene file of any known format, by its extension: `.toml`, `.gltf`, `.glb`, `.obj`, `.ply`.
+/// Reads a scene file of any known format, by its extension: `.toml`, `.gltf`, `.glb`, `.obj`, `.ply`. A scene
+/// without a camera is framed, one without a light gets one; its notes say so.
 pub fn load(path: &Path) -> Result<Scene, Error> {
-    match extension(path).as_str() {
-        "toml" => toml::read(path),
-        _ => read_model(path),
-    }
+    let mut scene = match extension(path).as_str() {
+        "toml" => toml::read(path)?,
+        _ => read_model(path)?,
+    };
+    complete(&mut scene);
+    Ok(scene)
 }
 
 /// Reads a file of geometry as it is, without adding a camera or a light.
 pub(super) fn read_model(path: &Path) -> Result<Scene, Error> {
     match extension(path).as_str() {
+        "obj" => obj::read(path),
+        "ply" => ply::read(path),
         other => {
             let message = format!("extension `.{other}` is not known; expected .toml, .gltf, .glb, .obj or .ply");
             Err(Error::unsupported(path, "", message))

@@ -85,6 +85,7 @@ macro_rules! one_of {
     ($(#[doc = $about:literal])+ enum $Name:ident { $($word:literal => $Variant:ident,)+ } default $default:expr) => {
         $(#[doc = $about])+
         #[derive(Clone, Debug)]
+        #[allow(clippy::enum_variant_names, reason = "a variant is called as its table")]
         pub(in crate::desc::toml) enum $Name {
             $(
                 /// As its table says.

@@ -181,7 +181,7 @@ impl MeshShape {
         let count = self.positions.value.len();
         let indices = match &self.indices {
             Some(indices) => indices.value.clone(),
-            None if count % 3 == 0 => (0..count as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
+            None if count.is_multiple_of(3) => (0..count as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
             None => {
                 let message = format!("{count} vertices without `indices` are not triangles; expected a multiple of 3");
                 return Err(Fault::new(&self.positions.at, message));
