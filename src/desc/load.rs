@@ -1,6 +1,6 @@
 //! One door for all formats.
 
-use super::{Error, Scene, complete, obj, ply, toml};
+use super::{Error, Scene, complete, gltf, obj, ply, toml};
 use std::path::Path;
 
 /// Reads a scene file of any known format, by its extension: `.toml`, `.gltf`, `.glb`, `.obj`, `.ply`. A scene
@@ -17,6 +17,7 @@ pub fn load(path: &Path) -> Result<Scene, Error> {
 /// Reads a file of geometry as it is, without adding a camera or a light.
 pub(super) fn read_model(path: &Path) -> Result<Scene, Error> {
     match extension(path).as_str() {
+        "gltf" | "glb" => gltf::read(path),
         "obj" => obj::read(path),
         "ply" => ply::read(path),
         other => {

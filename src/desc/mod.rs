@@ -7,6 +7,7 @@ mod error;
 mod expect;
 pub mod files;
 mod frame_camera;
+pub mod gltf;
 pub mod image_file;
 mod load;
 mod material;

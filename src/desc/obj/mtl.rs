@@ -121,7 +121,7 @@ fn texture(text: &str, srgb: bool, folder: &Folder, scene: &mut Scene) -> Result
         None => {
             let bytes = folder.read(&name, "").map_err(|e| e.message)?;
             let image: Image = image_file::decode(&name, &bytes).map_err(|e| format!("`{name}` {e}"))?;
-            scene.images.push(image);
+            scene.images.push(image.into());
             scene.images.len() - 1
         }
     };

@@ -256,7 +256,7 @@ impl<'a> Builder<'a> {
         }
         let image = self.decode(file)?;
         let number = self.scene.images.len();
-        self.scene.images.push(image);
+        self.scene.images.push(image.into());
         self.images.insert(file.value.clone(), number);
         Ok(number)
     }
@@ -278,7 +278,7 @@ impl<'a> Builder<'a> {
         if cleared > 0 {
             self.scene.notes.push(format!("{}: {cleared} pixels had negative values, now 0", file.value));
         }
-        self.scene.images.push(image);
+        self.scene.images.push(image.into());
         Ok(self.scene.images.len() - 1)
     }
 

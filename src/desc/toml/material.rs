@@ -76,7 +76,7 @@ keys! {
 keys! {
     /// Metal: give one of `metal`, `eta` with `k`, and `reflectance`.
     struct Conductor {
-        /// A metal by its chemical symbol.
+        /// A metal by its chemical symbol: Ag, Al, Au, Cr, Cu, Fe, Ni, Ti.
         metal: Option<At<String>>,
         /// Real part of the index of refraction for R, G and B.
         eta: Option<[Positive; 3]>,
