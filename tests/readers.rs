@@ -2,6 +2,8 @@
 
 #[path = "readers/images.rs"]
 mod images;
+#[path = "readers/toml_files.rs"]
+mod toml_files;
 
 /// A folder of third-party files, if this machine has it: `$RADIANZA_ASSETS/name`.
 fn assets(name: &str) -> Option<std::path::PathBuf> {

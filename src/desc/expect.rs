@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 /// The image must agree with this, by z-test.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct Expect {
     /// Exact RGB radiance of every pixel of the region, or one number for all three.
     pub radiance: Option<Value>,

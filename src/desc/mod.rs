@@ -2,20 +2,29 @@
 //! what is traced by [`crate::scene::Scene::compile`]. Nothing here knows a BVH, a light tree or a lobe.
 
 mod camera;
+mod complete;
 mod error;
 mod expect;
 pub mod files;
+mod frame_camera;
 pub mod gltf;
 pub mod image_file;
 mod load;
 mod material;
+mod mesh_check;
+pub mod obj;
+mod place;
+pub mod ply;
 pub mod primitives;
 mod settings;
 mod shape;
+pub mod toml;
 
 pub use camera::{Camera, Fov, Lens, Projection};
+pub use complete::complete;
 pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
+pub use frame_camera::{bounds, framing};
 pub use load::load;
 pub use material::{
     Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,

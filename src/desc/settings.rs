@@ -81,7 +81,7 @@ pub enum Tonemap {
 
 /// Suggestions of a scene file; `None` where it says nothing.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields, rename_all = "kebab-case")]
+#[serde(deny_unknown_fields)]
 pub struct RenderSettings {
     /// Samples per pixel.
     pub spp: Option<u32>,

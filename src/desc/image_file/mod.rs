@@ -50,6 +50,15 @@ pub fn clear_negatives(image: &mut Image) -> usize {
     changed
 }
 
+/// 8-bit sRGB with straight alpha to linear floats (IEC 61966-2-1).
+pub(crate) fn srgb_to_linear([r, g, b, a]: [u8; 4]) -> [f32; 4] {
+    let linear = |byte: u8| {
+        let x = f64::from(byte) / 255.0;
+        (if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }) as f32
+    };
+    [linear(r), linear(g), linear(b), f32::from(a) / 255.0]
+}
+
 /// Formats that are decoded.
 #[derive(Clone, Copy, Debug)]
 enum Kind {

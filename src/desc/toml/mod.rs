@@ -1,0 +1,103 @@
+//! Our own scene format: TOML, strict and readable.
+//!
+//! ```toml
+//! name = "A ball in a room"
+//!
+//! [camera]
+//! position = [0, 1, 4]          # centre of projection
+//! target = [0, 1, 0]
+//! view_angle = 40               # degrees, across the height
+//! resolution = [640, 480]
+//!
+//! [texture.tiles]
+//! type = "checker"
+//!
+//! [material.floor]
+//! type = "diffuse"
+//! reflectance = "tiles"         # a texture's name; or 0.5, [0.7, 0.6, 0.5], "#c0b0a0"
+//!
+//! [material.glass]
+//! type = "dielectric"
+//! ior = 1.5
+//!
+//! [[shape]]
+//! type = "quad"
+//! corner = [-3, 0, 3]
+//! edge_u = [6, 0, 0]
+//! edge_v = [0, 0, -6]
+//! material = "floor"
+//!
+//! [[shape]]
+//! type = "sphere"
+//! center = [0, 1, 0]
+//! material = "glass"
+//!
+//! [[light]]
+//! type = "point"
+//! position = [0, 5, 0]
+//! intensity = 50
+//!
+//! [render]
+//! spp = 64
+//! ```
+//!
+//! Every key is declared once, in the file of its table: `scene` (the whole), `camera`, `material`, `texture`, `color`,
+//! `shape`, `place` (translate, rotate, scale, matrix), `light` (and environment). The declarations read the tables,
+//! refuse unknown keys, and become the JSON Schema of [`schema`], which holds every key with its unit and default.
+//! Lengths are metres, angles degrees, colours linear RGB (BT.709). A hyphen in a key is read as an underscore. Files
+//! are looked for below the scene's folder and nowhere else.
+
+mod build;
+mod camera;
+mod color;
+mod derived;
+mod keys;
+mod light;
+mod material;
+mod metals;
+mod place;
+mod read;
+mod scene;
+mod schema;
+mod shape;
+mod texture;
+
+pub use schema::schema;
+
+use self::read::{Fault, Read};
+use super::files::{self, Folder};
+use super::{Error, Scene};
+use ::toml::Spanned;
+use ::toml::de::{DeTable, DeValue};
+use std::path::Path;
+
+/// Reads a scene file.
+pub fn read(path: &Path) -> Result<Scene, Error> {
+    let bytes = files::read(path)?;
+    let text = String::from_utf8(bytes).map_err(|e| {
+        let line = e.as_bytes()[..e.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
+        Error::invalid(path, format!("{line}:1"), "is not UTF-8 text")
+    })?;
+    parse(&text, path)
+}
+
+/// The scene that `text` describes. Files that it names are looked for in the folder of `path`; errors name `path`.
+pub fn parse(text: &str, path: &Path) -> Result<Scene, Error> {
+    let scene = tables(text).and_then(|file| build::Builder::new(&file, Folder::of(path)).build());
+    let mut scene = scene.map_err(|fault| fault.locate(path, text))?;
+    if scene.name.is_empty() {
+        scene.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    }
+    scene.source = Some(path.into());
+    Ok(scene)
+}
+
+/// The tables of a text.
+fn tables(text: &str) -> Result<scene::SceneFile, Fault> {
+    let table = DeTable::parse(text).map_err(|e| {
+        let at = e.span().unwrap_or(0..0);
+        Fault::new(&at, format!("is not TOML: {}", e.message()))
+    })?;
+    let at = table.span();
+    scene::SceneFile::read(&Spanned::new(at, DeValue::Table(table.into_inner())))
+}
