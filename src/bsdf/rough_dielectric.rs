@@ -80,6 +80,12 @@ impl RoughDielectric {
         Self::with(ggx, eta, tint, tables.0.map(|table| Slice::isotropic(table, alpha)))
     }
 
+    /// The same with another factor on transmitted light.
+    #[inline]
+    pub fn with_tint(&self, tint: Spectrum) -> Self {
+        Self { tint, ..*self }
+    }
+
     fn with(ggx: Ggx, eta: f32, tint: Spectrum, [outside, inside]: [Slice; 2]) -> Self {
         // Of either side, what the smooth interface transmits: t_out η_out² = t_in η_in².
         let (thin_to_dense, n) = (1.0 - mean_reflectance(eta.max(1.0 / eta)), eta.max(1.0 / eta));
