@@ -1,6 +1,5 @@
 //! Textures, samplers and images.
 
-use std::sync::Arc;
 use super::Reader;
 use crate::desc::{Error, Pixels, Texture, TextureRef, Wrap, image_file};
 use glam::{Affine2, Mat2, Vec2};
@@ -118,7 +117,7 @@ impl Reader<'_> {
         };
         let pixels = u64::from(decoded.size[0]) * u64::from(decoded.size[1]);
         self.budget.pixels(self.source, &place, texel * pixels)?;
-        self.scene.images.push(Arc::new(decoded));
+        self.scene.images.push(decoded.into());
         self.images.insert(index, self.scene.images.len() - 1);
         Ok(self.scene.images.len() - 1)
     }
