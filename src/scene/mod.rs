@@ -106,7 +106,8 @@ impl Scene {
     /// Le towards where the ray came from.
     #[inline]
     pub fn emission(&self, vertex: &Vertex) -> Spectrum {
-        self.materials[vertex.material as usize].emission(&vertex.surface, vertex.front, &self.textures)
+        let s = &vertex.surface;
+        self.materials[vertex.material as usize].emission(&s.uv, s.color, vertex.front, &self.textures)
     }
 
     /// Counts and sizes for people.
