@@ -86,9 +86,9 @@ fn quadrics() -> Vec<Specimen> {
         ("far", at + Vec3::new(30.0, -20.0, 7.0)),
     ];
     let around = vec![
-        ("near", at + Vec3::new(0.9, 0.6, 1.3)),
-        ("other side", at + Vec3::new(-0.7, -1.0, -1.4)),
-        ("far", at + Vec3::new(10.0, 7.0, 20.0)),
+        ("near", at + Vec3::new(1.9, 0.6, 1.3)),
+        ("other side", at + Vec3::new(-1.7, -1.0, -1.4)),
+        ("far", at + Vec3::new(4.0, 3.0, 8.0)),
     ];
     let inside = vec![("centre", at), ("off centre", at + Vec3::new(0.3, 0.4, 0.1))];
     [

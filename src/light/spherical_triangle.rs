@@ -7,9 +7,8 @@ use std::f64::consts::PI;
 /// sphere are differences of nearly equal numbers.
 const LEAST: f64 = 1e-6;
 
-/// Greatest solid angle \[sr\]: just under that of a reference point in the triangle, 2π, where the edges become great
-/// circles and the corners antipodes.
-const GREATEST: f64 = 2.0 * PI - 0.05;
+/// Greatest solid angle \[sr\]: just under that of a reference point in the triangle, 2π.
+const GREATEST: f64 = 2.0 * PI - LEAST;
 
 /// A triangle projected onto the unit sphere about a reference point. In f64: the cost of it is small beside the three
 /// square roots and two angles needed, and the sampling is sound for every triangle that it accepts.
