@@ -312,15 +312,15 @@ fn damaged_files_are_refused() {
     // Any bit may be wrong: an answer or an error, never a panic.
     let mut rng = rng(30);
     let mut refused = 0;
-    for _ in 0..3000 {
+    for _ in 0..1000 {
         let mut bytes = whole.clone();
         let at = if rng.random() { rng.random_range(0..1500) } else { rng.random_range(0..bytes.len()) };
         bytes[at] ^= 1 << rng.random_range(0..8);
         std::fs::write(&path, &bytes).unwrap();
         refused += usize::from(read_exr(&path).is_err());
     }
-    println!("{refused} of 3000 refused");
-    assert!(refused > 300);
+    println!("{refused} of 1000 refused");
+    assert!(refused > 100);
 }
 
 #[test]

@@ -33,7 +33,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         print!(" ({} stored, {} instances)", info.stored_triangles, info.instances);
     }
     println!(", {} spheres, disks and cylinders, {} objects", info.quadrics, scene.objects.len());
-    println!("materials  {}{}", info.materials.len(), list(&info.materials));
+    println!("materials  {}", list(&info.materials));
     println!("textures   {} of {} images", info.textures, scene.images.len());
     println!("lights     {}", info.lights);
     println!(
@@ -41,14 +41,18 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         memory(&[("meshes", info.mesh_bytes), ("trees", info.bvh_bytes), ("images", info.texture_bytes)])
     );
     for (index, camera) in scene.cameras.iter().enumerate() {
-        println!("camera {index}   `{}` {}", camera.name, view(camera));
+        let name = if camera.name.is_empty() { String::new() } else { format!("`{}` ", camera.name) };
+        println!("camera {index}   {name}{}", view(camera));
     }
     scene.notes.iter().for_each(|text| println!("note: {text}"));
     Ok(())
 }
 
+/// How many, and the first of their names.
 fn list(names: &[String]) -> String {
-    if names.is_empty() { String::new() } else { format!(": {}", names.join(", ")) }
+    const SHOWN: usize = 20;
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    format!("{}: {}{more}", names.len(), names[..names.len().min(SHOWN)].join(", "))
 }
 
 fn memory(parts: &[(&str, usize)]) -> String {

@@ -76,13 +76,16 @@ impl Report {
 
     fn line(&self, p: &Progress) -> String {
         let fraction = self.fraction(p);
-        let eta = p.elapsed.as_secs_f64() * (1.0 - fraction) / fraction.max(1e-9);
+        let left = match p.elapsed.as_secs_f64() * (1.0 - fraction) / fraction.max(1e-9) {
+            seconds if seconds > 0.0 => format!("{} left", time(seconds)),
+            _ => "finishing the pass".into(),
+        };
         let error = if p.relative_error.is_finite() {
             format!(", error {:.3} %", 100.0 * p.relative_error)
         } else {
             String::new()
         };
-        format!("{}{error}, {} left", speed(p.samples, p.rays, p.elapsed), time(eta))
+        format!("{}{error}, {left}", speed(p.samples, p.rays, p.elapsed))
     }
 }
 

@@ -219,6 +219,8 @@ fn summary(settings: &Settings, output: &Output, files: &[PathBuf]) {
     if error.is_finite() {
         let replicates = spp / settings.replicate;
         eprintln!("mean relative standard error {:.3} %, from {replicates} replicates", 100.0 * error);
+    } else {
+        eprintln!("note: a single replicate: the image has no standard error");
     }
     let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
     eprintln!("wrote {}", names.join(" and "));

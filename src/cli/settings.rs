@@ -48,9 +48,6 @@ pub(super) fn choose(arguments: &Arguments, scene: &desc::Scene) -> Result<Choic
     if !timed && spp != asked {
         notes.push(format!("{asked} samples per pixel become {spp}: whole replicates of {replicate}"));
     }
-    if spp / replicate < 2 && !timed {
-        notes.push("a single replicate: the image has no standard error".into());
-    }
 
     let layers = arguments.layers.clone().unwrap_or_else(|| LayerKind::DEFAULT.to_vec());
     let integrator = arguments.integrator.or(file.integrator).unwrap_or_default();

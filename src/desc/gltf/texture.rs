@@ -7,6 +7,7 @@ use gltf::json;
 use json::extensions::texture::TextureTransform;
 use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
+use std::sync::Arc;
 
 /// The four kinds of texture reference of the document, which differ by name only.
 pub(super) struct Slot<'a> {
