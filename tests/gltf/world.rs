@@ -90,7 +90,7 @@ fn cameras_lose_their_scale() {
     assert_eq!((a.aspect, a.resolution, a.lens, a.name.as_str()), (Some(1.5), None, None, "lens"));
     assert_eq!(b.projection, Projection::Orthographic { half_height: 2.0 });
     assert_eq!((b.aspect, b.name.as_str(), b.to_world), (Some(2.0), "flat", Mat4::IDENTITY));
-    assert!((c.to_world.determinant() - 1.0).abs() < 1e-6);
+    assert!(c.to_world.abs_diff_eq(Mat4::IDENTITY, 1e-6), "{}", c.to_world);
     assert!(noted(&scene, "not mirrored"));
 }
 
