@@ -1,7 +1,17 @@
 //! Tiles × sample indices on all cores → film.
 
+use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};
-use std::time::Duration;
+use crate::film::{Accumulator, Film, PixelSample, filter_offset};
+use crate::integrator::replay::Replay;
+use crate::integrator::{self, ByClass, Method, Observer, RayCount};
+use crate::sampler::{self, Sampler};
+use crate::scene::Scene;
+use crate::spectrum::Spectrum;
+use glam::Vec2;
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::time::{Duration, Instant};
 
 /// What is rendered, and how.
 #[derive(Clone, Debug, PartialEq)]
@@ -62,4 +72,233 @@ pub struct BadSample {
     pub index: u64,
     /// What came.
     pub rgb: [f32; 3],
+}
+
+/// A finished or interrupted render.
+#[derive(Debug)]
+pub struct Output {
+    /// Sums of all pixels.
+    pub film: Film,
+    /// The first samples that were no valid radiance.
+    pub bad: Vec<BadSample>,
+    /// How many there were.
+    pub bad_count: u64,
+    /// Rays traced.
+    pub rays: u64,
+    /// Samples of every pixel.
+    pub samples_per_pixel: u32,
+    /// Wall-clock time.
+    pub elapsed: Duration,
+    /// Stopped before all samples were taken.
+    pub interrupted: bool,
+}
+
+/// A render that cannot start.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// No such camera.
+    #[error("camera {index} does not exist; the scene has {count}")]
+    Camera {
+        /// Asked for.
+        index: usize,
+        /// Present.
+        count: usize,
+    },
+    /// An empty image.
+    #[error("the image has {width}×{height} pixels and the crop {crop:?}; both must hold at least one pixel")]
+    Size {
+        /// Pixels across.
+        width: u32,
+        /// Pixels down.
+        height: u32,
+        /// x0, y0, x1, y1.
+        crop: [u32; 4],
+    },
+    /// Samples and replicates that do not fit.
+    #[error(
+        "{spp} samples per pixel in replicates of {replicate}: replicates are powers of two and divide the samples"
+    )]
+    Samples {
+        /// Samples per pixel.
+        spp: u32,
+        /// Samples per replicate.
+        replicate: u32,
+    },
+    /// The workers could not be started.
+    #[error("the worker threads could not be started: {0}")]
+    Threads(#[from] rayon::ThreadPoolBuildError),
+}
+
+/// Most bad samples that are listed one by one.
+const LISTED: usize = 100;
+
+/// Renders. Every pixel's samples are taken in the order of their indices, whatever the threads and tiles, so the
+/// image is the same bit for bit. `stop` ends it after the running pass (one replicate of every pixel).
+pub fn render(
+    scene: &Scene,
+    settings: &Settings,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(&Progress) + Sync),
+) -> Result<Output, Error> {
+    let tracer = Tracer::new(scene, settings)?;
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
+    let start = Instant::now();
+    let mut film = Film::new(settings.size, settings.crop, settings.transport);
+    let tiles = tiles(settings.crop, settings.tile.max(1));
+    let [x0, y0, x1, y1] = settings.crop;
+    let pixels = u64::from(x1 - x0) * u64::from(y1 - y0);
+    let total = pixels * u64::from(settings.spp);
+    let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
+    let mut bad = Vec::new();
+    let mut bad_count = 0;
+    let mut done = 0;
+    let mut relative_error = f64::NAN;
+    while done < settings.spp {
+        let enough = settings.time.is_some_and(|limit| start.elapsed() >= limit);
+        if stop.load(Ordering::Relaxed) || (enough && done > 0) {
+            break;
+        }
+
+        // One replicate of every pixel, tile by tile.
+        let pass: Vec<Tile> = pool.install(|| {
+            tiles
+                .par_iter()
+                .map(|&area| {
+                    let tile = tracer.tile(area, u64::from(done));
+                    rays.fetch_add(tile.rays, Ordering::Relaxed);
+                    let so_far = samples.fetch_add(tile.samples, Ordering::Relaxed) + tile.samples;
+                    let rays = rays.load(Ordering::Relaxed);
+                    progress(&Progress { samples: so_far, total, rays, elapsed: start.elapsed(), relative_error });
+                    tile
+                })
+                .collect()
+        });
+        for tile in pass {
+            for ((x, y), sums) in positions(tile.area).zip(&tile.pixels) {
+                film.add_replicate(x, y, sums);
+            }
+            bad_count += tile.bad.len() as u64;
+            bad.extend(tile.bad.into_iter().take(LISTED - bad.len().min(LISTED)));
+        }
+        done += settings.replicate;
+        relative_error = film.relative_error();
+    }
+    Ok(Output {
+        film,
+        bad,
+        bad_count,
+        rays: rays.into_inner(),
+        samples_per_pixel: done,
+        elapsed: start.elapsed(),
+        interrupted: done < settings.spp,
+    })
+}
+
+/// One sample of one pixel in words: a line for every vertex of its path.
+pub fn replay(scene: &Scene, settings: &Settings, pixel: [u32; 2], index: u64) -> Result<String, Error> {
+    let tracer = Tracer::new(scene, settings)?;
+    let mut watch = Replay::default();
+    let sample = tracer.sample(pixel, index, &mut watch);
+    let rgb = sample.radiance.to_rgb();
+    Ok(format!("pixel {pixel:?}, sample {index}, seed {}\n{}radiance {rgb:?}\n", settings.seed, watch.text))
+}
+
+/// A rectangle of the image: x0, y0, x1, y1.
+type Area = [u32; 4];
+
+struct Tile {
+    area: Area,
+    pixels: Vec<Accumulator>,
+    samples: u64,
+    rays: u64,
+    bad: Vec<BadSample>,
+}
+
+fn positions([x0, y0, x1, y1]: Area) -> impl Iterator<Item = (u32, u32)> {
+    (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
+}
+
+fn tiles([x0, y0, x1, y1]: Area, side: u32) -> Vec<Area> {
+    let steps = |from: u32, to: u32| (from..to).step_by(side as usize);
+    let area = |x: u32, y: u32| [x, y, x.saturating_add(side).min(x1), y.saturating_add(side).min(y1)];
+    steps(y0, y1).flat_map(|y| steps(x0, x1).map(move |x| area(x, y))).collect()
+}
+
+/// All that a sample is a function of, beside its pixel and index.
+struct Tracer<'a> {
+    method: Method<'a>,
+    camera: Camera,
+    settings: &'a Settings,
+    sampler: sampler::Kind,
+}
+
+impl<'a> Tracer<'a> {
+    fn new(scene: &'a Scene, settings: &'a Settings) -> Result<Self, Error> {
+        let [width, height] = settings.size;
+        let crop @ [x0, y0, x1, y1] = settings.crop;
+        if x0 >= x1 || y0 >= y1 || x1 > width || y1 > height {
+            return Err(Error::Size { width, height, crop });
+        }
+        let (spp, replicate) = (settings.spp, settings.replicate);
+        if spp == 0 || !replicate.is_power_of_two() || !spp.is_multiple_of(replicate) {
+            return Err(Error::Samples { spp, replicate });
+        }
+        let (index, count) = (settings.camera, scene.cameras.len());
+        let camera = scene.cameras.get(index).ok_or(Error::Camera { index, count })?;
+        Ok(Self {
+            method: Method {
+                scene,
+                integrator: settings.integrator,
+                strategy: settings.strategy,
+                max_depth: settings.max_depth.unwrap_or(u32::MAX),
+            },
+            camera: Camera::new(camera, settings.size),
+            settings,
+            sampler: match settings.sampler {
+                SamplerKind::Independent => sampler::Kind::Independent,
+                SamplerKind::Sobol => sampler::Kind::Sobol,
+            },
+        })
+    }
+
+    /// The replicate that begins at sample `first`, of all pixels of an area.
+    fn tile(&self, area: Area, first: u64) -> Tile {
+        let mut tile = Tile { area, pixels: Vec::new(), samples: 0, rays: 0, bad: Vec::new() };
+        for (x, y) in positions(area) {
+            let mut sums = Accumulator::default();
+            for index in first..first + u64::from(self.settings.replicate) {
+                let mut count = RayCount(0);
+                let mut sample = if self.settings.transport {
+                    let mut watch = (ByClass::default(), count);
+                    let mut sample = self.sample([x, y], index, &mut watch);
+                    sample.transport = watch.0.0;
+                    count = watch.1;
+                    sample
+                } else {
+                    self.sample([x, y], index, &mut count)
+                };
+                tile.rays += count.0;
+                // A sample that is no radiance is reported and counts as none.
+                let rgb = sample.radiance.to_rgb();
+                if !sample.radiance.is_finite() || rgb.iter().any(|&x| x < 0.0) {
+                    tile.bad.push(BadSample { pixel: [x, y], index, rgb });
+                    sample.radiance = Spectrum::ZERO;
+                    sample.transport = Default::default();
+                }
+                sums.add(&sample);
+            }
+            tile.samples += u64::from(self.settings.replicate);
+            tile.pixels.push(sums);
+        }
+        tile
+    }
+
+    /// A sample is a pure function of (seed, pixel, index).
+    fn sample<O: Observer>(&self, pixel: [u32; 2], index: u64, watch: &mut O) -> PixelSample {
+        let mut u = Sampler::new(self.sampler, self.settings.seed, pixel, index, self.settings.replicate);
+        let centre = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
+        let film = centre + filter_offset(self.settings.filter, u.next_2d());
+        let ray = self.camera.ray(film, u.next_2d());
+        integrator::radiance(&self.method, &ray, &mut u, watch)
+    }
 }

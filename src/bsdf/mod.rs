@@ -2,6 +2,39 @@
 //!
 //! Everything here works in the local shading frame (z = ns). `wo` and `wi` are unit vectors that point away from
 //! the surface; one is below the horizon where light is transmitted. Numbers come in, `Option<Sample>` goes out.
+//!
+//! z always points to the front (outside). Opaque lobes are two-sided; dielectrics take the side from the sign of wo.z.
+//! A [`Bsdf`] is a sum of [`Lobe`]s; each lobe family has its file:
+//!
+//! | file | lobes |
+//! | --- | --- |
+//! | `lambert` | Lambert; diffuse base coupled to a specular coat |
+//! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
+//! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
+//! | `rough_dielectric` | GGX reflection and refraction |
+//! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
+
+mod energy;
+pub mod fresnel;
+pub mod ggx;
+mod lambert;
+mod lobe;
+mod mixture;
+mod rough_dielectric;
+mod rough_reflection;
+mod smooth;
+mod specimens;
+
+pub use energy::{Energy, EnergyTable, Interface, Slice};
+pub use fresnel::Fresnel;
+pub use ggx::{Ggx, MIN_ALPHA};
+pub use lambert::{Coat, CoupledDiffuse, Lambert};
+pub use lobe::Lobe;
+pub use mixture::{Bsdf, MAX_LOBES};
+pub use rough_dielectric::{DielectricTables, RoughDielectric};
+pub use rough_reflection::{Micro, RoughReflection, RoughThin, multiple_scattering};
+pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
+pub use specimens::{Specimen, specimens};
 
 use crate::spectrum::Spectrum;
 use glam::Vec3;

@@ -2,8 +2,8 @@
 
 use super::Aabb;
 use super::build::build;
-use super::kernel::KernelRay;
-use super::node::{LEAF, Node, STACK, WIDTH};
+use super::kernel::{KernelRay, Stack};
+use super::node::{LEAF, Node, WIDTH};
 use crate::math::Ray;
 
 /// Boxes whose contents are asked by a closure.
@@ -32,12 +32,9 @@ impl BoxBvh {
         }
         let mut ray = *ray;
         let kernel = KernelRay::new(&ray);
-        let mut stack = [(0f32, 0u32); STACK];
-        let mut size = 1;
+        let mut stack = Stack::new();
         let mut found = false;
-        while size > 0 {
-            size -= 1;
-            let (near, child) = stack[size];
+        while let Some((near, child)) = stack.pop() {
             if near > ray.t_max {
                 continue;
             }
@@ -53,17 +50,21 @@ impl BoxBvh {
                 }
                 continue;
             }
-            let first = size;
+            let first = stack.len();
             let node = &self.nodes[child as usize];
             for lane in 0..WIDTH {
                 if let Some(near) = enters(node, lane, &kernel, ray.t_max) {
-                    stack[size] = (near, node.child[lane]);
-                    size += 1;
+                    stack.insert(first, (near, node.child[lane]));
                 }
             }
-            stack[first..size].sort_unstable_by(|a, b| b.0.total_cmp(&a.0));
         }
         found
+    }
+
+    /// Holds nothing.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.nodes.is_empty()
     }
 
     /// Box about everything.

@@ -10,10 +10,12 @@
 //! | `header.rs` | what an image says about itself |
 //! | `exr.rs` | OpenEXR in and out |
 //! | `tonemap.rs`, `agx.rs`, `png.rs` | radiance → display |
+//! | `compare.rs` | two images: errors and z |
 //! | `file.rs` | whole files or none |
 
 mod accumulator;
 mod agx;
+mod compare;
 mod develop;
 pub mod exr;
 pub mod file;
@@ -25,6 +27,7 @@ mod sums;
 mod tonemap;
 
 pub use accumulator::{Accumulator, CLASSES};
+pub use compare::{CompareError, Comparison, Evidence, compare, difference_colors};
 pub use develop::{LayerKind, develop};
 pub use filter::{filter_density, filter_offset, filter_radius};
 pub use header::{Header, Origin};

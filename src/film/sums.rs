@@ -14,7 +14,7 @@ pub struct Film {
     /// Replicates of each pixel.
     replicates: Vec<u32>,
     hits: Vec<u64>,
-    radiance: Vec<Moments>,
+    radiance: Vec<RgbSums>,
     alpha: Vec<f64>,
     albedo: Vec<DVec3>,
     normal: Vec<DVec3>,
@@ -22,19 +22,19 @@ pub struct Film {
     /// Whether radiance is split by transport class.
     split: bool,
     /// Seven a pixel where split.
-    transport: Vec<Moments>,
+    transport: Vec<RgbSums>,
 }
 
 /// First and second moment of an RGB quantity over replicates, as sums.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-struct Moments {
+struct RgbSums {
     /// Σ x = Σ S, with S the sum over one replicate.
     sum: DVec3,
     /// Σ S².
     squares: DVec3,
 }
 
-impl Moments {
+impl RgbSums {
     fn add(&mut self, replicate_sum: DVec3) {
         self.sum += replicate_sum;
         self.squares += replicate_sum * replicate_sum;
@@ -96,13 +96,13 @@ impl Film {
             replicate: 0,
             replicates: vec![0; n],
             hits: vec![0; n],
-            radiance: vec![Moments::default(); n],
+            radiance: vec![RgbSums::default(); n],
             alpha: vec![0.0; n],
             albedo: vec![DVec3::ZERO; n],
             normal: vec![DVec3::ZERO; n],
             depth: vec![0.0; n],
             split: transport,
-            transport: vec![Moments::default(); if transport { 7 * n } else { 0 }],
+            transport: vec![RgbSums::default(); if transport { 7 * n } else { 0 }],
         }
     }
 
@@ -253,7 +253,7 @@ impl Film {
     /// The channels' errors are added as if fully correlated, which they nearly are: an upper bound.
     pub fn relative_error(&self) -> f64 {
         const Y: DVec3 = DVec3::new(0.212_672_9, 0.715_152_2, 0.072_175);
-        let pixel = |(m, &r): (&Moments, &u32)| {
+        let pixel = |(m, &r): (&RgbSums, &u32)| {
             let stderr = m.stderr(r, self.replicate).map_or(f64::NAN, |e| e.dot(Y));
             stderr / (m.mean(r, self.replicate).dot(Y) + 0.01)
         };

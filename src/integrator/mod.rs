@@ -1,1 +1,220 @@
-//! .
+//! Estimators of the rendering equation, and the ladder of its restrictions.
+//!
+//! | method | what is summed |
+//! | --- | --- |
+//! | [`raycast`] | Le at the first surface |
+//! | [`local`] | Le and direct light |
+//! | [`whitted`] | the same behind any chain of perfect reflections and refractions |
+//! | [`path`] | everything |
+//!
+//! All share [`direct_light`], the MIS weight and the directions of [`strategy`].
+
+mod classes;
+pub mod local;
+pub mod path;
+pub mod raycast;
+pub mod replay;
+pub mod strategy;
+pub mod whitted;
+
+pub use classes::Classes;
+pub use strategy::Drawn;
+
+use crate::bsdf::{Bsdf, Pdf, Transport};
+use crate::desc::{Integrator, Strategy};
+use crate::film::PixelSample;
+use crate::math::Ray;
+use crate::sampler::Sampler;
+use crate::scene::{Scene, Shading, Vertex};
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+
+/// What an estimator needs to know beside the ray.
+#[derive(Clone, Copy, Debug)]
+pub struct Method<'a> {
+    /// What is traced.
+    pub scene: &'a Scene,
+    /// Which part of the equation.
+    pub integrator: Integrator,
+    /// How the hemisphere is sampled.
+    pub strategy: Strategy,
+    /// Most reflections and refractions of a path.
+    pub max_depth: u32,
+}
+
+/// Someone who watches a path: the split by transport class, a replay, a test. The estimators report each piece of
+/// radiance once, and each vertex; with `()` all of it compiles to nothing.
+pub trait Observer {
+    /// Whether `classes` are tracked for this observer; they cost a division a vertex.
+    const CLASSES: bool = false;
+    /// A ray is about to be traced.
+    fn ray(&mut self) {}
+    /// `radiance` was added to the pixel after reflections of these `classes`.
+    fn light(&mut self, _radiance: Spectrum, _classes: &Classes) {}
+    /// The path met a surface.
+    fn vertex(&mut self, _depth: u32, _ray: &Ray, _vertex: &Vertex, _shading: Option<&Shading>, _beta: Spectrum) {}
+    /// The path left the scene.
+    fn escaped(&mut self, _depth: u32, _ray: &Ray, _beta: Spectrum) {}
+    /// A direction was drawn: with what density, and the throughput after it.
+    fn drawn(&mut self, _drawn: Drawn, _beta: Spectrum) {}
+}
+
+impl Observer for () {}
+
+/// Keeps the radiance of every transport class.
+#[derive(Default)]
+pub struct ByClass(pub [Spectrum; 7]);
+
+impl Observer for ByClass {
+    const CLASSES: bool = true;
+    fn light(&mut self, radiance: Spectrum, classes: &Classes) {
+        classes.split(radiance, &mut self.0);
+    }
+}
+
+/// Counts rays.
+#[derive(Clone, Copy, Default)]
+pub struct RayCount(pub u64);
+
+impl Observer for RayCount {
+    #[inline]
+    fn ray(&mut self) {
+        self.0 += 1;
+    }
+}
+
+/// Two who watch together; the first hears of light, the second of rays.
+impl Observer for (ByClass, RayCount) {
+    const CLASSES: bool = true;
+    fn ray(&mut self) {
+        self.1.ray();
+    }
+    fn light(&mut self, radiance: Spectrum, classes: &Classes) {
+        self.0.light(radiance, classes);
+    }
+}
+
+/// Radiance along a camera ray, with what the film keeps of the first surface.
+pub fn radiance<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
+    match method.integrator {
+        Integrator::Raycast => raycast::estimate(method, ray, sampler, watch),
+        Integrator::Local => local::estimate(method, ray, sampler, watch),
+        Integrator::Whitted => whitted::estimate(method, ray, sampler, watch),
+        Integrator::Path => path::estimate(method, ray, sampler, watch),
+    }
+}
+
+/// What the film keeps of the first surface.
+fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: &Shading) {
+    sample.alpha = 1.0;
+    sample.depth = (vertex.surface.p - ray.o).length();
+    sample.normal = if vertex.front { shading.frame.n } else { -shading.frame.n };
+    sample.albedo = shading.bsdf.albedo(shading.wo);
+}
+
+/// Radiance that the light sampler sees from a point: one light, one shadow ray,
+///
+/// ```text
+/// ∫ f(x, ωi, ωo) Le(x, ωi) |cos θi| dωi  ≈  f Le |cos θi| w / pdf
+/// ```
+///
+/// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
+/// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
+/// light). Returns the radiance and the part of it that specular lobes reflect.
+pub fn direct_light<O: Observer>(
+    method: &Method,
+    vertex: &Vertex,
+    shading: &Shading,
+    choice: f32,
+    u: [f32; 2],
+    watch: &mut O,
+) -> (Spectrum, Spectrum) {
+    const NOTHING: (Spectrum, Spectrum) = (Spectrum::ZERO, Spectrum::ZERO);
+    let scene = method.scene;
+    let Some((_, light)) = scene.lights.sample(vertex.surface.p, choice, u, &scene.textures) else { return NOTHING };
+    let wi = shading.frame.to_local(light.wi);
+    if !shading.agrees(vertex, light.wi, wi) {
+        return NOTHING;
+    }
+    let eval = shading.bsdf.eval(shading.wo, wi, Transport::Radiance);
+    // How much of this light is the light sampler's share?
+    let share = match (light.pdf, method.strategy) {
+        (Pdf::Discrete(p), _) => 1.0 / p,
+        (Pdf::SolidAngle(pdf), Strategy::Mis) => power_heuristic(pdf, eval.pdf) / pdf,
+        (Pdf::SolidAngle(pdf), Strategy::Light) => 1.0 / pdf,
+        (Pdf::SolidAngle(_), Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => return NOTHING,
+    };
+    if eval.f.is_black() {
+        return NOTHING;
+    }
+    watch.ray();
+    let visible = scene.visibility(vertex, &light);
+    if visible == 0.0 {
+        return NOTHING;
+    }
+    let arriving = light.le * (wi.z.abs() * share * visible);
+    (eval.f * arriving, eval.specular * arriving)
+}
+
+/// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would
+/// have drawn the same direction.
+fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce(Vec3) -> f32) -> f32 {
+    match (drawn, strategy) {
+        (Drawn::Camera | Drawn::Delta, _) => 1.0,
+        (_, Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => 1.0,
+        (Drawn::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(from)),
+        (Drawn::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(from) == 0.0),
+    }
+}
+
+/// Power heuristic with β = 2 for one sample each (Veach 1997, section 9.2.2): a²/(a² + b²), without overflow.
+pub fn power_heuristic(a: f32, b: f32) -> f32 {
+    if a == f32::INFINITY {
+        return 1.0;
+    }
+    if a == 0.0 {
+        return 0.0;
+    }
+    let ratio = b / a;
+    1.0 / (1.0 + ratio * ratio)
+}
+
+/// Le that the ray's end sends back, weighted for how the ray was drawn; with the light it belongs to.
+fn emitted(method: &Method, vertex: &Vertex, drawn: Drawn) -> Spectrum {
+    let scene = method.scene;
+    let Some(light) = vertex.light else { return Spectrum::ZERO };
+    let le = scene.emission(vertex);
+    if le.is_black() {
+        return Spectrum::ZERO;
+    }
+    let s = &vertex.surface;
+    le * weight_of_hit(method.strategy, drawn, |from| scene.lights.pdf_hit(light, from, s.p, s.ng))
+}
+
+/// Light from infinity along a ray that met nothing.
+fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
+    let lights = &method.scene.lights;
+    let le = lights.environment_le(ray.d);
+    if le.is_black() {
+        return Spectrum::ZERO;
+    }
+    le * weight_of_hit(method.strategy, drawn, |_| lights.environment_pdf(ray.d))
+}
+
+/// Whether `bsdf` reflects light that the light sampler finds.
+fn sees_lights(bsdf: &Bsdf, scene: &Scene) -> bool {
+    bsdf.has_smooth() && !scene.lights.is_empty()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn power_heuristic_is_a_partition_of_one() {
+        for (a, b) in [(1.0, 2.0), (1e-30, 1e-20), (1e30, 1e20), (0.0, 1.0), (3.0, 0.0)] {
+            assert!((power_heuristic(a, b) + power_heuristic(b, a) - 1.0).abs() < 1e-6, "{a} {b}");
+        }
+        assert_eq!(power_heuristic(f32::INFINITY, 1.0), 1.0);
+    }
+}

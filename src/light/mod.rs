@@ -1,21 +1,151 @@
 //! Lights, and choosing one.
+//!
+//! A light answers three questions: what arrives at a point from a direction that was drawn towards it
+//! ([`Light::sample`]), how likely a direction that met it otherwise would have been drawn ([`Light::pdf`]), and what
+//! it emits where it was met ([`Light::le`]). [`Lights`] asks one of many, chosen by power.
+
+mod alias;
+mod area;
+mod choose;
+mod directional;
+mod emitter;
+mod environment;
+mod point;
+mod quadric;
+mod specimens;
+mod spherical_triangle;
+mod spot;
+mod triangle;
+
+pub use alias::Alias;
+pub use choose::Lights;
+pub use directional::DirectionalLight;
+pub use emitter::Emitter;
+pub use environment::{Environment, Texels};
+pub use point::PointLight;
+pub use quadric::QuadricLight;
+pub use specimens::{Specimen, specimens};
+pub use spherical_triangle::SphericalTriangle;
+pub use spot::SpotLight;
+pub use triangle::TriangleLight;
 
 use crate::bsdf::Pdf;
+use crate::desc;
+use crate::math::Ray;
+use crate::shape::Surface;
 use crate::spectrum::Spectrum;
-use glam::Vec3;
+use crate::texture::Textures;
+use glam::{Vec2, Vec3, Vec4};
 
 /// Light drawn towards a point: Lₑ (or intensity over squared distance, or irradiance) that arrives from `wi`.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
     /// Direction from the point to the light, unit, world space.
     pub wi: Vec3,
-    /// Where a shadow ray ends: for an area light the drawn point, moved off its surface towards the receiver by its
-    /// error bound (`math::offset_origin`), so that the light does not shadow itself at any scale; for point and spot
-    /// lights their place; `None` for light from infinity.
-    pub end: Option<Vec3>,
+    /// Where a shadow ray along `wi` may end \[m\]: short of the light by the error bound of its distance, so that the
+    /// light's own surface is not met; infinite for light from infinity.
+    pub distance: f32,
     /// Arriving radiance \[W·sr⁻¹·m⁻²\]; for delta lights irradiance perpendicular to `wi` \[W/m²\].
     pub le: Spectrum,
     /// Density over solid angle at the point, or the probability of a delta light; the choice among lights included
     /// where the sample was drawn from all of them.
     pub pdf: Pdf,
+}
+
+/// A source of light. The large ones are boxed, so that a million emissive triangles stay compact.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// Emissive triangle.
+    Triangle(TriangleLight),
+    /// Emissive sphere, disk or cylinder.
+    Quadric(Box<QuadricLight>),
+    /// Radiates alike in all directions from a point.
+    Point(PointLight),
+    /// Radiates into a cone from a point.
+    Spot(SpotLight),
+    /// Parallel light.
+    Directional(DirectionalLight),
+    /// Light from all around, at infinity.
+    Environment(Box<Environment>),
+}
+
+impl Light {
+    /// The light without a surface that was written.
+    pub fn from_desc(light: &desc::Light) -> Self {
+        match *light {
+            desc::Light::Point { position, intensity } => Self::Point(PointLight::new(position, intensity)),
+            desc::Light::Spot { position, direction, intensity, inner, outer } => {
+                Self::Spot(SpotLight::new(position, direction, intensity, inner, outer))
+            }
+            desc::Light::Directional { direction, irradiance } => {
+                Self::Directional(DirectionalLight::new(direction, irradiance))
+            }
+        }
+    }
+
+    /// Draws light that arrives at `p`, nothing in between considered; `None` where the draw carries none.
+    #[inline]
+    pub fn sample(&self, p: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+        match self {
+            Self::Triangle(light) => light.sample(p, u, textures),
+            Self::Quadric(light) => light.sample(p, u, textures),
+            Self::Point(light) => light.sample(p),
+            Self::Spot(light) => light.sample(p),
+            Self::Directional(light) => light.sample(),
+            Self::Environment(light) => light.sample(u),
+        }
+    }
+
+    /// Density over solid angle \[1/sr\] with which [`sample`](Self::sample) at `reference` draws the direction to
+    /// the point `p` of this area light, whose geometric normal there is `ng` (either side); 0 for other lights.
+    #[inline]
+    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+        match self {
+            Self::Triangle(light) => light.pdf(reference, p, ng),
+            Self::Quadric(light) => light.pdf(reference, p, ng),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => 0.0,
+        }
+    }
+
+    /// Radiance that this area light emits at the point with these texture coordinates and vertex colour, to its front
+    /// or its back; 0 for other lights.
+    #[inline]
+    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
+        match self {
+            Self::Triangle(light) => light.emitter.le(uv, color, front, textures),
+            Self::Quadric(light) => light.emitter.le(uv, color, front, textures),
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Spectrum::ZERO,
+        }
+    }
+
+    /// Radiant flux \[W\]; of light from infinity, what enters a sphere of `scene_radius`. `mean` is the average of a
+    /// texture ([`Textures::mean`], which is worth remembering: it looks at every pixel).
+    pub fn power(&self, scene_radius: f32, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+        match self {
+            Self::Triangle(light) => light.power(mean),
+            Self::Quadric(light) => light.power(mean),
+            Self::Point(light) => light.power(),
+            Self::Spot(light) => light.power(),
+            Self::Directional(light) => light.power(scene_radius),
+            Self::Environment(light) => light.power(scene_radius),
+        }
+    }
+
+    /// Nearest intersection of `ray` with the surface of this area light alone: what the tests, and anything else that
+    /// has one light and no scene, trace.
+    pub fn intersect(&self, ray: &Ray) -> Option<(f32, Surface)> {
+        match self {
+            Self::Triangle(light) => light.intersect(ray),
+            Self::Quadric(light) => {
+                let t = light.shape.intersect(ray)?;
+                Some((t, light.shape.surface(ray, t)))
+            }
+            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => None,
+        }
+    }
+
+    /// True where light comes from one direction only, which no other sampling can meet.
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+    }
 }

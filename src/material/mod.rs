@@ -1,1 +1,195 @@
-//! .
+//! Materials: what the author wrote, compiled, and at a hit turned into lobes.
+//!
+//! One file a model: `classic` (mirror, dielectric, conductor) and `metallic_roughness` (glTF); `param` reads
+//! parameters and textures, `roughness` holds microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
+
+mod classic;
+mod metallic_roughness;
+pub mod param;
+mod roughness;
+
+use crate::bsdf::{Bsdf, Lobe};
+use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap};
+use crate::math::Frame;
+use crate::shape::Surface;
+use crate::spectrum::Spectrum;
+use crate::texture::Textures;
+use classic::{Conductor, Dielectric};
+use glam::{Vec2, Vec3, Vec4};
+use metallic_roughness::MetallicRoughness;
+use param::Point;
+
+/// A material ready for tracing.
+#[derive(Clone, Debug)]
+pub struct Material {
+    scattering: Scattering,
+    emission: Option<Emission>,
+    normal_map: Option<NormalMap>,
+    alpha: Alpha,
+}
+
+#[derive(Clone, Debug)]
+enum Scattering {
+    /// Nothing.
+    Absorb,
+    /// One lobe, the same everywhere: the common case, without any work at a hit.
+    Single(Lobe),
+    /// f = Σ weight · f_part.
+    Sum(Vec<(f32, Part)>),
+}
+
+#[derive(Clone, Debug)]
+enum Part {
+    /// The same everywhere: lobes with their factors.
+    Fixed(Vec<(Lobe, f32)>),
+    Diffuse(ColorParam),
+    Mirror(ColorParam),
+    Dielectric(Dielectric),
+    Conductor(Conductor),
+    MetallicRoughness(Box<MetallicRoughness>),
+}
+
+impl Part {
+    fn is_constant(&self) -> bool {
+        match self {
+            Self::Fixed(_) => true,
+            Self::Diffuse(c) | Self::Mirror(c) => param::is_constant(c),
+            Self::Dielectric(d) => d.is_constant(),
+            Self::Conductor(c) => c.is_constant(),
+            Self::MetallicRoughness(m) => m.is_constant(),
+        }
+    }
+
+    fn lobes(&self, at: Point, mut push: impl FnMut(Lobe, f32)) {
+        match self {
+            Self::Fixed(lobes) => lobes.iter().for_each(|&(lobe, scale)| push(lobe, scale)),
+            Self::Diffuse(reflectance) => push(Lobe::lambert(param::share(reflectance, at)), 1.0),
+            Self::Mirror(reflectance) => push(classic::mirror(param::share(reflectance, at)), 1.0),
+            Self::Dielectric(d) => push(d.lobe(at), 1.0),
+            Self::Conductor(c) => push(c.lobe(at), 1.0),
+            Self::MetallicRoughness(m) => m.lobes(at, push),
+        }
+    }
+
+    /// What does not vary, made into lobes.
+    fn fixed(self) -> Self {
+        if !self.is_constant() {
+            return self;
+        }
+        let mut lobes = Vec::new();
+        param::nowhere(|at| self.lobes(at, |lobe, scale| lobes.push((lobe, scale))));
+        Self::Fixed(lobes)
+    }
+}
+
+impl Material {
+    /// Resolves tables and constants. A mixture keeps its [`crate::bsdf::MAX_LOBES`] weightiest lobes.
+    pub fn compile(m: &desc::Material) -> Self {
+        let mut parts = Vec::new();
+        flatten(&m.model, 1.0, &mut parts);
+        parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let scattering = match parts.as_slice() {
+            [] => Scattering::Absorb,
+            [(1.0, Part::Fixed(lobes))] if matches!(lobes.as_slice(), [(_, 1.0)]) => Scattering::Single(lobes[0].0),
+            _ => Scattering::Sum(parts),
+        };
+        Self { scattering, emission: m.emission, normal_map: m.normal_map, alpha: m.alpha }
+    }
+
+    /// Lobes at a hit. `wo`, in the local shading frame, decides how often each is chosen, and nothing else.
+    #[inline]
+    pub fn bsdf(&self, s: &Surface, wo: Vec3, textures: &Textures) -> Bsdf {
+        match &self.scattering {
+            Scattering::Absorb => Bsdf::new(),
+            Scattering::Single(lobe) => Bsdf::single(*lobe),
+            Scattering::Sum(parts) => {
+                let at = Point { uv: &s.uv, color: s.color, textures };
+                let mut bsdf = Bsdf::new();
+                for (weight, part) in parts {
+                    part.lobes(at, |lobe, scale| {
+                        bsdf.push_by_albedo(lobe, weight * scale, wo);
+                    });
+                }
+                bsdf
+            }
+        }
+    }
+
+    /// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.
+    #[inline]
+    pub fn emission(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
+        match &self.emission {
+            None => Spectrum::ZERO,
+            Some(emission) => param::emitted(emission, front, Point { uv, color, textures }),
+        }
+    }
+
+    /// It may emit.
+    pub fn is_emissive(&self) -> bool {
+        self.emission.is_some_and(|e| e.radiance.factor.iter().any(|&x| x > 0.0))
+    }
+
+    /// Probability that the surface is there: 1 where opaque, 0 or 1 for masks, coverage × vertex alpha in between.
+    #[inline]
+    pub fn coverage(&self, uv: &[Vec2; 2], color: Vec4, textures: &Textures) -> f32 {
+        let at = Point { uv, color, textures };
+        let vertex = if color.w.is_finite() { color.w.clamp(0.0, 1.0) } else { 1.0 };
+        match &self.alpha {
+            Alpha::Opaque => 1.0,
+            Alpha::Mask { coverage, cutoff } => f32::from(param::scalar(coverage, at) * vertex >= *cutoff),
+            Alpha::Blend { coverage } => param::scalar(coverage, at) * vertex,
+        }
+    }
+
+    /// Coverage may be less than 1.
+    #[inline]
+    pub fn has_holes(&self) -> bool {
+        self.alpha != Alpha::Opaque
+    }
+
+    /// Normal of the normal map, world space, unit, in the hemisphere of `ng`. `None` without a map, or where the
+    /// surface has no tangent to turn it by.
+    #[inline]
+    pub fn shading_normal(&self, s: &Surface, textures: &Textures) -> Option<Vec3> {
+        let map = self.normal_map.as_ref()?;
+        if s.tangent == Vec3::ZERO {
+            return None;
+        }
+        let rgb = textures.lookup(&map.texture, &s.uv).truncate();
+        let local = (rgb * 2.0 - Vec3::ONE) * Vec3::new(map.scale, map.scale, 1.0);
+        let n = Frame::from_z_tangent(s.ns, s.tangent, s.handedness).to_world(local).try_normalize()?;
+        // What points into the surface is lifted just above it.
+        const LEAST: f32 = 0.01;
+        let height = n.dot(s.ng);
+        if height >= LEAST { Some(n) } else { (n + s.ng * (LEAST - height)).try_normalize() }
+    }
+}
+
+/// Most lobes that a model makes at a hit; above [`crate::bsdf::MAX_LOBES`], the least weighty are lost.
+pub fn most_lobes(model: &desc::Model) -> usize {
+    match model {
+        desc::Model::Absorb => 0,
+        desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
+        desc::Model::MetallicRoughness(m) => 2 + usize::from(m.transmission.is_some()),
+        _ => 1,
+    }
+}
+
+/// Appends the parts of a model, `weight` times, mixtures taken apart.
+fn flatten(model: &desc::Model, weight: f32, parts: &mut Vec<(f32, Part)>) {
+    let part = match model {
+        desc::Model::Absorb => return,
+        desc::Model::Mix(mixed) => {
+            mixed.iter().for_each(|(w, model)| flatten(model, weight * w, parts));
+            return;
+        }
+        desc::Model::Diffuse { reflectance } => Part::Diffuse(*reflectance),
+        desc::Model::Mirror { reflectance } => Part::Mirror(*reflectance),
+        desc::Model::Dielectric { ior, roughness, tint } => Part::Dielectric(Dielectric::new(*ior, *roughness, *tint)),
+        desc::Model::Conductor { fresnel, roughness } => Part::Conductor(Conductor::new(fresnel, *roughness)),
+        desc::Model::MetallicRoughness(m) => Part::MetallicRoughness(Box::new(MetallicRoughness::new(m))),
+    };
+    if weight > 0.0 {
+        parts.push((weight, part.fixed()));
+    }
+}

@@ -24,7 +24,7 @@ impl Independent {
     /// The number at this dimension; goes on to the next.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
-        self.dimension += 1;
+        self.dimension = self.dimension.wrapping_add(1);
         unit(self.generator.next_u32())
     }
 

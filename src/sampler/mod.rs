@@ -82,7 +82,13 @@ impl Sampler {
 /// The upper 24 bits as a multiple of 2⁻²⁴ in [0, 1).
 #[inline]
 fn unit(bits: u32) -> f32 {
-    (bits >> 8) as f32 * (1.0 / (1 << 24) as f32)
+    unit_24(bits >> 8)
+}
+
+/// A number below 2²⁴ as a multiple of 2⁻²⁴ in [0, 1).
+#[inline]
+fn unit_24(bits: u32) -> f32 {
+    bits as f32 * (1.0 / (1 << 24) as f32)
 }
 
 #[cfg(test)]

@@ -5,16 +5,18 @@
 //! independent. Everything is computed from the index, so there is no table and no largest index or dimension.
 
 use super::hash::{GOLDEN, mix, pixel_hash};
-use super::unit;
+use super::{unit, unit_24};
 
 /// Numbers of one sample.
 #[derive(Clone, Copy, Debug)]
 pub struct Sobol {
-    /// Index within the replicate, bits reversed.
+    /// Index within the replicate, bits reversed, after the part of its hash that needs no seed.
     reversed_index: u32,
+    /// Whether replicates are so small that bytes hold the index.
+    small: bool,
+    dimension: u32,
     /// Hash of the seed, the pixel and the replicate.
     key: u64,
-    dimension: u32,
 }
 
 impl Sobol {
@@ -22,31 +24,40 @@ impl Sobol {
     /// `replicate` is a power of two (others are rounded up to one).
     #[inline]
     pub fn new(seed: u64, pixel: [u32; 2], index: u64, replicate: u32) -> Self {
-        // 2³² points at most: all that 32 bits tell apart.
         let size = (replicate.max(1) as u64).next_power_of_two();
         let within = (index & (size - 1)) as u32;
         let key = pixel_hash(seed, pixel, index >> size.trailing_zeros());
-        Self { reversed_index: within.reverse_bits(), key, dimension: 0 }
+        Self { reversed_index: owen_start(within.reverse_bits()), small: size <= 256, dimension: 0, key }
     }
 
     /// The number at this dimension; goes on to the next.
     #[inline]
     pub fn next_1d(&mut self) -> f32 {
         let [shuffle, x, _] = self.seeds();
-        self.dimension += 1;
-        let j = owen(self.reversed_index, shuffle).reverse_bits();
-        unit(owen(j, x).reverse_bits())
+        self.dimension = self.dimension.wrapping_add(1);
+        let a = owen_end(self.reversed_index, shuffle);
+        if self.small {
+            short_fraction(owen_end(STARTS[(a >> 24) as usize][0], x))
+        } else {
+            unit(owen(a.reverse_bits(), x).reverse_bits())
+        }
     }
 
     /// The pair at this dimension and the next; goes on by two.
     #[inline]
     pub fn next_2d(&mut self) -> [f32; 2] {
         let [shuffle, x, y] = self.seeds();
-        self.dimension += 2;
-        let j = owen(self.reversed_index, shuffle).reverse_bits();
-        // Both reversals at once: reversing 64 bits also swaps the halves.
-        let both = ((owen(pascal(j), y) as u64) << 32 | owen(j, x) as u64).reverse_bits();
-        [unit((both >> 32) as u32), unit(both as u32)]
+        self.dimension = self.dimension.wrapping_add(2);
+        let a = owen_end(self.reversed_index, shuffle);
+        if self.small {
+            let [first, second] = STARTS[(a >> 24) as usize];
+            [short_fraction(owen_end(first, x)), short_fraction(owen_end(second, y))]
+        } else {
+            // Both reversals at once: reversing 64 bits also swaps the halves.
+            let j = a.reverse_bits();
+            let both = ((owen(pascal(j), y) as u64) << 32 | owen(j, x) as u64).reverse_bits();
+            [unit((both >> 32) as u32), unit(both as u32)]
+        }
     }
 
     /// Goes to `dimension`.
@@ -69,6 +80,38 @@ impl Sobol {
     }
 }
 
+/// Of each byte of reversed index: the first two dimensions of Sobol's sequence, bits reversed, after the part of their
+/// hash that needs no seed.
+static STARTS: [[u32; 2]; 256] = {
+    let mut table = [[0; 2]; 256];
+    let mut i = 0;
+    while i < 256 {
+        let j = (i as u8).reverse_bits() as u32;
+        table[i] = [owen_start(j), owen_start(pascal(j))];
+        i += 1;
+    }
+    table
+};
+
+/// Each byte with its bits reversed.
+static REVERSED: [u8; 256] = {
+    let mut table = [0; 256];
+    let mut i = 0;
+    while i < 256 {
+        table[i] = (i as u8).reverse_bits();
+        i += 1;
+    }
+    table
+};
+
+/// Fraction of 24 bits from a reversed one in which only the low 8 bits tell points apart: these are reversed; all
+/// others are independent random bits, of which the most hashed are taken as they are.
+#[inline]
+fn short_fraction(reversed: u32) -> f32 {
+    let upper = REVERSED[(reversed & 0xff) as usize] as u32;
+    unit_24(upper << 16 | reversed >> 16)
+}
+
 /// Point `index` of the first two dimensions of Sobol's sequence, as 32-bit fractions, not scrambled.
 pub fn sobol_2d(index: u32) -> [u32; 2] {
     [index.reverse_bits(), pascal(index).reverse_bits()]
@@ -85,11 +128,21 @@ pub fn owen_scramble(x: u32, seed: u32) -> u32 {
 /// 2011, "Stratified Sampling for Stochastic Transparency", with the constants of N. Vegdahl, "Building a Better LK
 /// Hash", 2021).
 #[inline]
-fn owen(mut x: u32, seed: u32) -> u32 {
-    x ^= x.wrapping_mul(0x3d20_adea);
-    x = x.wrapping_add(seed);
-    x = x.wrapping_mul((seed >> 16) | 1);
-    x ^= x.wrapping_mul(0x0552_6c56);
+fn owen(x: u32, seed: u32) -> u32 {
+    owen_end(owen_start(x), seed)
+}
+
+/// The part of [`owen`] before the seed.
+#[inline]
+const fn owen_start(x: u32) -> u32 {
+    x ^ x.wrapping_mul(0x3d20_adea)
+}
+
+/// The part of [`owen`] from the seed on.
+#[inline]
+fn owen_end(x: u32, seed: u32) -> u32 {
+    let x = x.wrapping_add(seed).wrapping_mul((seed >> 16) | 1);
+    let x = x ^ x.wrapping_mul(0x0552_6c56);
     x ^ x.wrapping_mul(0x53a2_2864)
 }
 
@@ -97,7 +150,7 @@ fn owen(mut x: u32, seed: u32) -> u32 {
 /// p(t) → p(t + 1) of polynomials over GF(2) whose coefficients are the bits of `x`. As (t + 1)^(2^k) = t^(2^k) + 1
 /// there, the upper half of each block of 2^(k+1) coefficients is added to the lower, for every k.
 #[inline]
-fn pascal(mut x: u32) -> u32 {
+const fn pascal(mut x: u32) -> u32 {
     x ^= x >> 16;
     x ^= (x & 0xff00_ff00) >> 8;
     x ^= (x & 0xf0f0_f0f0) >> 4;

@@ -38,8 +38,8 @@ impl PlacedQuadric {
         let o_error =
             (self.to_object.matrix3.abs() * ray.o.as_dvec3().abs() + self.to_object.translation.abs()) * ROUNDING;
         let t_min = d.abs().dot(o_error) / d.length_squared();
-        let valid = |t: &f64| *t > t_min && *t < f64::from(ray.t_max);
-        self.quadric.roots(o, d).into_iter().flatten().find(valid).map(|t| t as f32)
+        // The end is compared after rounding: a ray cut at its own hit is open there.
+        self.quadric.roots(o, d).into_iter().flatten().filter(|t| *t > t_min).map(|t| t as f32).find(|t| *t < ray.t_max)
     }
 
     /// The surface where `ray` meets it at `t`, in world space.
@@ -72,8 +72,8 @@ impl PlacedQuadric {
         let forth = m * object.abs() + self.to_world.translation.abs();
         let back = m * (inverse * forth + self.to_object.translation.abs());
         let error = world.abs() * f64::from(UNIT_ROUNDOFF) + (forth + back) * ROUNDING;
-        // Rounding the bound itself must not shrink it.
-        error.as_vec3() * (1.0 + f32::EPSILON)
+        // Rounding the bound itself must not shrink it, and even an exact point must move off the surface.
+        error.as_vec3() * (1.0 + f32::EPSILON) + f32::MIN_POSITIVE
     }
 
     /// Unit normal in the world, towards the front. A normal is a covector: it stays outward under a mirroring map.

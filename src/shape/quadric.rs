@@ -108,8 +108,8 @@ impl Quadric {
 
     /// Nearest intersection in `(0, t_max)` with a ray of object space, whose direction may have any length.
     pub fn intersect(&self, o: Vec3, d: Vec3, t_max: f32) -> Option<f32> {
-        let valid = |t: &f64| *t > 0.0 && *t < f64::from(t_max);
-        self.roots(o.as_dvec3(), d.as_dvec3()).into_iter().flatten().find(valid).map(|t| t as f32)
+        let roots = self.roots(o.as_dvec3(), d.as_dvec3()).into_iter().flatten();
+        roots.map(|t| t as f32).find(|t| *t > 0.0 && *t < t_max)
     }
 
     /// The point of the ray at the root nearest to `t`, exact where `t` was rounded to f32.

@@ -54,7 +54,8 @@ pub fn triangle_area([a, b, c]: [Vec3; 3]) -> f32 {
 /// The surface of triangle `p` at the weights (1 − u − v, u, v), in the space of `p`. `flip` puts the front on the
 /// side from which the vertices run clockwise (reversed objects; vertices that a mirroring map has moved).
 ///
-/// The error of the interpolated point is bounded by γ₇ Σ |bᵢ pᵢ| (PBRT 4th ed., section 6.8.4).
+/// The error of the interpolated point is bounded by γ₇ Σ |bᵢ pᵢ| (PBRT 4th ed., section 6.8.4), and by γ₂ |p₀| more
+/// because the weight of the first vertex is the difference 1 − u − v.
 pub fn triangle_surface(p: [Vec3; 3], u: f32, v: f32, attributes: &TriangleAttributes, flip: bool) -> Surface {
     let b = [1.0 - u - v, u, v];
     let extent = (p[0] * b[0]).abs() + (p[1] * b[1]).abs() + (p[2] * b[2]).abs();
@@ -80,7 +81,7 @@ pub fn triangle_surface(p: [Vec3; 3], u: f32, v: f32, attributes: &TriangleAttri
 
     Surface {
         p: interpolate(p, u, v),
-        p_error: extent * gamma(7),
+        p_error: extent * gamma(7) + p[0].abs() * gamma(2),
         ng,
         ns,
         tangent,

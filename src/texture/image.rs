@@ -22,6 +22,14 @@ static DECODE: LazyLock<[[f32; 256]; 2]> = LazyLock::new(|| {
 });
 
 impl ImageTexture {
+    /// Bytes of pixels.
+    pub(super) fn memory(&self) -> usize {
+        match &self.image.pixels {
+            Pixels::Rgba8(pixels) => size_of_val(&pixels[..]),
+            Pixels::Rgba32F(pixels) => size_of_val(&pixels[..]),
+        }
+    }
+
     pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
         Self { image, decode: &DECODE[srgb as usize], wrap, nearest }
     }

@@ -50,6 +50,11 @@ impl Textures {
         }
     }
 
+    /// Bytes of pixels; images that several textures share count for each.
+    pub fn memory(&self) -> usize {
+        self.textures.iter().map(|t| if let Texture::Image(image) = t { image.memory() } else { 0 }).sum()
+    }
+
     /// Number of textures.
     pub fn len(&self) -> usize {
         self.textures.len()

@@ -57,7 +57,7 @@ pub fn uniform_sphere_inverse(w: Vec3) -> [f32; 2] {
 #[inline]
 pub fn uniform_cone(u: [f32; 2], one_minus_cos: f32) -> Vec3 {
     let d = uniform_disk(u);
-    let r2 = d.length_squared();
+    let r2 = d.length_squared().min(1.0);
     let height = one_minus_cos * r2;
     // sin θ/r = √(k (2 − k r²)).
     (d * safe_sqrt(one_minus_cos * (2.0 - height))).extend(1.0 - height)
@@ -72,8 +72,8 @@ pub fn uniform_cone_pdf(one_minus_cos: f32) -> f32 {
 /// Inverse of [`uniform_cone`], for directions in the cone.
 pub fn uniform_cone_inverse(w: Vec3, one_minus_cos: f32) -> [f32; 2] {
     let sin2 = w.truncate().length_squared();
-    // 1 − cos θ from the sine near +z, where the cosine has lost it.
-    let height = if w.z > 0.0 { one_minus_cos_of_sin2(sin2) } else { 1.0 - w.z };
+    // 1 − cos θ from the sine near +z, where the cosine has lost it, and from the cosine where the sine has.
+    let height = if w.z > 0.5 { one_minus_cos_of_sin2(sin2) } else { 1.0 - w.z };
     let r = safe_sqrt(height / one_minus_cos).min(1.0);
     let axis = if sin2 > 0.0 { w.truncate() / sin2.sqrt() } else { Vec2::X };
     uniform_disk_inverse(axis * r).map(to_unit)

@@ -1,8 +1,8 @@
 //! Traversal kernels: one text ([`traverse`]), compiled for each instruction set. All give identical hits: they do
 //! the same f32 operations in the same order, and none fuses a multiplication with an addition.
 //!
-//! `unsafe` is allowed here: it stands where a kernel is entered after its CPU features were detected, and where
-//! SIMD registers are loaded from arrays.
+//! `unsafe` is allowed here: it stands where a kernel is entered after its CPU features were detected, where
+//! SIMD registers are loaded from arrays, and in the stack that is not cleared.
 #![allow(unsafe_code)]
 
 #[cfg(target_arch = "x86_64")]
@@ -10,9 +10,11 @@ mod avx2;
 mod lanes;
 mod portable;
 mod ray;
+mod stack;
 mod traverse;
 
 pub(super) use ray::KernelRay;
+pub(super) use stack::Stack;
 
 use super::node::{Node, TriangleLeaf};
 use super::triangles::TriangleHit;

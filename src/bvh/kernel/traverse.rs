@@ -3,8 +3,8 @@
 /// `nearest` and `occluded` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
-        use super::KernelRay;
-        use crate::bvh::node::{LEAF, Node, STACK, TriangleLeaf};
+        use super::{KernelRay, Stack};
+        use crate::bvh::node::{LEAF, Node, TriangleLeaf};
         use crate::bvh::triangles::TriangleHit;
 
         /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
@@ -74,28 +74,13 @@ macro_rules! kernels {
             (hits, t, v.div(det), w.div(det))
         }
 
-        /// Sorts up to eight keys, the farthest first: children are visited from the end.
-        #[inline]
-        fn sort_descending(keys: &mut [(f32, u32)]) {
-            for i in 1..keys.len() {
-                let mut j = i;
-                while j > 0 && keys[j - 1].0 < keys[j].0 {
-                    keys.swap(j - 1, j);
-                    j -= 1;
-                }
-            }
-        }
-
         /// Nearest hit; see [`super::nearest`].
         $(#[$isa])?
         pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay, hit: &mut TriangleHit) -> bool {
-            let mut stack = [(0f32, 0u32); STACK];
-            let mut size = 1;
+            let mut stack = Stack::new();
             let mut t_max = ray.t_max;
             let mut found = false;
-            while size > 0 {
-                size -= 1;
-                let (near, child) = stack[size];
+            while let Some((near, child)) = stack.pop() {
                 if near > t_max {
                     continue;
                 }
@@ -121,15 +106,11 @@ macro_rules! kernels {
                 let node = &nodes[child as usize];
                 let (mut met, near) = boxes(node, ray, t_max);
                 let near = near.to_array();
-                let first = size;
+                let first = stack.len();
                 while met != 0 {
                     let lane = met.trailing_zeros() as usize & 7;
                     met &= met - 1;
-                    stack[size] = (near[lane], node.child[lane]);
-                    size += 1;
-                }
-                if size - first > 1 {
-                    sort_descending(&mut stack[first..size]);
+                    stack.insert(first, (near[lane], node.child[lane]));
                 }
             }
             found
@@ -138,11 +119,8 @@ macro_rules! kernels {
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
         pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
-            let mut stack = [0u32; STACK];
-            let mut size = 1;
-            while size > 0 {
-                size -= 1;
-                let child = stack[size];
+            let mut stack = Stack::new();
+            while let Some((_, child)) = stack.pop() {
                 if child & LEAF != 0 {
                     if triangles(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
                         return true;
@@ -154,8 +132,7 @@ macro_rules! kernels {
                 while met != 0 {
                     let lane = met.trailing_zeros() as usize & 7;
                     met &= met - 1;
-                    stack[size] = node.child[lane];
-                    size += 1;
+                    stack.push((0.0, node.child[lane]));
                 }
             }
             false

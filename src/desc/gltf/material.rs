@@ -128,7 +128,7 @@ impl Reader<'_> {
             })?),
             None => None,
         };
-        let texture = self.texture(Slot::from(map).with(transform.as_ref()), false, place)?;
+        let texture = self.texture(Slot::of_normals(map, transform.as_ref()), false, place)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 

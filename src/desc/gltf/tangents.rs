@@ -27,13 +27,14 @@ pub(super) fn repair(tangents: &mut [Vec4], normals: &[Vec3]) -> usize {
 
 /// Gives `mesh` tangents for a map that looks `transform(uv)` up. Vertices are split where the triangles about them
 /// disagree. False where a vertex has so many triangles that each triangle got a tangent of its own instead.
+///
+/// The green of glTF's normal maps points up in the image, and v down: v is negated, so that the bitangent w n × t
+/// points to where v decreases.
 pub(super) fn generate(mesh: &mut Mesh, uv_set: usize, transform: Affine2) -> bool {
-    let corners = mesh.indices.len();
-    let mut task = Task {
-        uv: mesh.uv[uv_set].iter().map(|uv| transform.transform_point2(*uv)).collect(),
-        mesh,
-        corners: vec![None; 3 * corners],
-    };
+    let flipped = |uv: &Vec2| transform.transform_point2(*uv) * Vec2::new(1.0, -1.0);
+    let uv = mesh.uv[uv_set].iter().map(flipped).collect();
+    let corners = vec![None; 3 * mesh.indices.len()];
+    let mut task = Task { mesh, uv, corners };
     let welded = task.valence() <= MAX_VALENCE && bevy_mikktspace::generate_tangents(&mut task).is_ok();
     if !welded {
         task.per_triangle();

@@ -7,8 +7,9 @@ use gltf::json;
 use json::extensions::texture::TextureTransform;
 use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
+use std::sync::Arc;
 
-/// The four kinds of texture reference of the document, which differ by name only.
+/// A use of a texture, whatever the kind of reference in the document.
 pub(super) struct Slot<'a> {
     texture: usize,
     uv_set: u32,
@@ -18,6 +19,13 @@ pub(super) struct Slot<'a> {
 impl<'a> From<&'a json::texture::Info> for Slot<'a> {
     fn from(info: &'a json::texture::Info) -> Self {
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
+        Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
+    }
+}
+
+impl<'a> Slot<'a> {
+    /// That of a normal map, whose extensions the `gltf` crate leaves untyped.
+    pub(super) fn of_normals(info: &json::material::NormalTexture, transform: Option<&'a TextureTransform>) -> Self {
         Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
     }
 }
@@ -120,20 +128,6 @@ impl Reader<'_> {
         self.scene.images.push(decoded.into());
         self.images.insert(index, self.scene.images.len() - 1);
         Ok(self.scene.images.len() - 1)
-    }
-}
-
-impl<'a> From<&'a json::material::NormalTexture> for Slot<'a> {
-    /// The crate leaves extensions of normal textures untyped; their transform is read by [`transform_of`].
-    fn from(info: &'a json::material::NormalTexture) -> Self {
-        Self { texture: info.index.value(), uv_set: info.tex_coord, transform: None }
-    }
-}
-
-impl<'a> Slot<'a> {
-    /// The same use with this transform.
-    pub(super) fn with(self, transform: Option<&'a TextureTransform>) -> Self {
-        Self { transform: transform.or(self.transform), ..self }
     }
 }
 

@@ -1,0 +1,58 @@
+//! Smooth functions of two variables, four at a time: a grid of nodes with cubic interpolation.
+
+use glam::Vec4;
+use rayon::prelude::*;
+
+/// Values at nodes that are equidistant in both variables.
+#[derive(Debug)]
+pub(super) struct Grid {
+    nx: usize,
+    nodes: Vec<Vec4>,
+}
+
+/// Four neighbouring nodes of one variable and the weights of the cubic through them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Stencil {
+    first: u32,
+    weights: [f32; 4],
+}
+
+impl Stencil {
+    /// For `t` in \[0, 1\] among `n` nodes; the outermost cubics also serve the outermost intervals.
+    #[inline]
+    pub(super) fn new(t: f32, n: usize) -> Self {
+        let t = t.clamp(0.0, 1.0) * (n - 1) as f32;
+        let first = ((t as usize).max(1) - 1).min(n - 4);
+        let x = t - first as f32;
+        let (a, b, c, d) = (x, x - 1.0, x - 2.0, x - 3.0);
+        let weights = [b * c * d / -6.0, a * c * d * 0.5, a * b * d * -0.5, a * b * c / 6.0];
+        Self { first: first as u32, weights }
+    }
+
+    /// The cubic through four of the `values`.
+    #[inline]
+    pub(super) fn over(&self, values: &[Vec4]) -> Vec4 {
+        (0..4).map(|i| values[self.first as usize + i] * self.weights[i]).sum()
+    }
+}
+
+impl Grid {
+    /// Evaluates `f` at the `nx` × `ny` nodes, given as integers, on all cores.
+    pub(super) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
+        let nodes = (0..nx * ny).into_par_iter().map(|i| f(i % nx, i / nx)).collect();
+        Self { nx, nodes }
+    }
+
+    /// Value at `x` in \[0, 1\] and the stencil `y` of the other variable.
+    #[inline]
+    pub(super) fn at(&self, x: f32, y: Stencil) -> Vec4 {
+        let x = Stencil::new(x, self.nx);
+        let mut sum = Vec4::ZERO;
+        for j in 0..4 {
+            let row = &self.nodes[(y.first as usize + j) * self.nx + x.first as usize..][..4];
+            let value = row[0] * x.weights[0] + row[1] * x.weights[1] + row[2] * x.weights[2] + row[3] * x.weights[3];
+            sum += value * y.weights[j];
+        }
+        sum
+    }
+}

@@ -1,0 +1,20 @@
+//! How much energy single scattering keeps, so that multiple scattering can give back what it loses.
+//!
+//! GGX with Smith masking counts light that leaves the microsurface after one bounce. The rest, `loss(μ) = 1 − E(μ)` of
+//! the energy that arrives under μ = cos θ, is returned by the reciprocal lobe of Kulla & Conty (2017, "Revisiting
+//! Physically Based Shading at Imageworks"),
+//!
+//! ```text
+//! f_ms(o, i) = F_ms loss(o) loss(i) / (π loss_avg),    loss_avg = (1/π) ∫ loss(i) cos θi dωi
+//! ```
+//!
+//! whose albedo is F_ms loss(o). So a lossless lobe (F_ms = 1) reflects exactly what falls on it, up to the error of the
+//! tables here: the quadrature is converged, the interpolation cubic, and `loss_avg` belongs to the interpolant.
+
+mod grid;
+mod interface;
+mod quadrature;
+mod table;
+
+pub use interface::{Energy, Interface};
+pub use table::{EnergyTable, Slice};

@@ -1,0 +1,308 @@
+//! Tables of the energy over direction and roughness, computed once for each interface.
+
+use super::grid::{Grid, Stencil};
+use super::interface::{Energy, Interface};
+use super::quadrature::{Rule, gauss_legendre};
+use crate::bsdf::ggx::Ggx;
+use crate::math::sqr;
+use glam::{Vec3, Vec4};
+use std::collections::HashMap;
+use std::f32::consts::FRAC_2_PI;
+use std::f64::consts::FRAC_PI_2;
+use std::sync::{LazyLock, Mutex, PoisonError};
+
+/// Nodes in μ; twice as many where there is a critical angle.
+const N_MU: usize = 48;
+/// Nodes in ln α.
+const N_ALPHA: usize = 40;
+/// Nodes in azimuth.
+const N_AZIMUTH: usize = 17;
+/// Nodes of the means in ln α.
+const N_MEANS: usize = 96;
+/// ln of half of [`crate::bsdf::ggx::MIN_ALPHA`]: the least α in the tables.
+const LOG_MIN: f32 = -9.903_487;
+
+/// Energy over μ and α (isotropic), or over μ and azimuth for one pair of α.
+#[derive(Debug)]
+pub struct EnergyTable {
+    interface: Interface,
+    grid: Grid,
+    /// (ln loss, parts) averaged over the hemisphere, at equidistant ln α; anisotropic tables have one.
+    means: Vec<Vec4>,
+}
+
+/// A table at one roughness: what a lobe carries.
+#[derive(Clone, Copy, Debug)]
+pub struct Slice {
+    table: &'static EnergyTable,
+    ggx: Ggx,
+    row: Stencil,
+    /// Cosine-weighted means over the hemisphere.
+    pub mean: Energy,
+}
+
+impl Slice {
+    /// The energy of this microsurface. Tables are looked up by their parameters, and computed the first time: make
+    /// slices when materials are compiled, and where roughness varies over the surface by [`Slice::isotropic`].
+    pub fn new(interface: Interface, ggx: Ggx) -> Self {
+        if ggx.ax == ggx.ay {
+            return Self::isotropic(EnergyTable::isotropic(interface), ggx.ax);
+        }
+        let table = EnergyTable::memoised(interface, Some(ggx));
+        Self { table, ggx, row: Stencil::new(0.0, N_AZIMUTH), mean: unpack_mean(table.means[0]) }
+    }
+
+    /// An isotropic table at this α.
+    #[inline]
+    pub fn isotropic(table: &'static EnergyTable, alpha: f32) -> Self {
+        let t = log_alpha(alpha);
+        let mean = unpack_mean(Stencil::new(t, N_MEANS).over(&table.means));
+        Self { table, ggx: Ggx { ax: alpha, ay: alpha }, row: Stencil::new(t, N_ALPHA), mean }
+    }
+
+    /// Energy of the direction `w`, on either side.
+    #[inline]
+    pub fn at(&self, w: Vec3) -> Energy {
+        let (mu, table) = (w.z.abs().min(1.0), self.table);
+        let (alpha, row) = if self.ggx.ax == self.ggx.ay {
+            (self.ggx.ax, self.row)
+        } else {
+            let (alpha, t) = azimuth(self.ggx, w);
+            (alpha, Stencil::new(t, N_AZIMUTH))
+        };
+        unpack(table.interface, table.grid.at(abscissa(table.interface, mu, alpha), row), mu, alpha)
+    }
+}
+
+impl EnergyTable {
+    /// The table of all isotropic roughnesses.
+    pub fn isotropic(interface: Interface) -> &'static Self {
+        Self::memoised(interface, None)
+    }
+
+    fn memoised(interface: Interface, anisotropic: Option<Ggx>) -> &'static Self {
+        type Tables = Mutex<HashMap<[u32; 3], &'static EnergyTable>>;
+        static TABLES: LazyLock<Tables> = LazyLock::new(Default::default);
+        let key = [
+            match interface {
+                Interface::Mirror => 0,
+                Interface::Dielectric { eta } => eta.to_bits(),
+            },
+            anisotropic.map_or(0, |g| g.ax.to_bits()),
+            anisotropic.map_or(0, |g| g.ay.to_bits()),
+        ];
+        let find = || TABLES.lock().unwrap_or_else(PoisonError::into_inner).get(&key).copied();
+        if let Some(table) = find() {
+            return table;
+        }
+        // Not under the lock: the thread that waits for the others may take up work that asks for a table.
+        let table = Self::tabulate(interface, anisotropic);
+        let mut tables = TABLES.lock().unwrap_or_else(PoisonError::into_inner);
+        tables.entry(key).or_insert_with(|| Box::leak(Box::new(table)))
+    }
+
+    fn tabulate(interface: Interface, anisotropic: Option<Ggx>) -> Self {
+        let rule = Rule::new::<12, 16>();
+        let n_mu = if interface.critical() > 0.0 { 2 * N_MU } else { N_MU };
+        let node = |i: usize, phi: f64, alpha: f32, ggx: Ggx| {
+            let mu = invert(i as f32 / (n_mu - 1) as f32, |mu| abscissa(interface, mu, alpha));
+            pack(interface, interface.integrate(&rule, mu, phi, [ggx.ax, ggx.ay]), mu, alpha)
+        };
+        match anisotropic {
+            None => {
+                let grid = Grid::tabulate(n_mu, N_ALPHA, |i, j| {
+                    let alpha = alpha_of(j as f32 / (N_ALPHA - 1) as f32);
+                    node(i, 0.0, alpha, Ggx { ax: alpha, ay: alpha })
+                });
+                let mean = |k| {
+                    let alpha = alpha_of(k as f32 / (N_MEANS - 1) as f32);
+                    pack_mean(mean_over_cosine(interface, &grid, Stencil::new(log_alpha(alpha), N_ALPHA), alpha))
+                };
+                let means = (0..N_MEANS).map(mean).collect();
+                Self { interface, grid, means }
+            }
+            Some(ggx) => {
+                let at = |phi: f64| azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
+                let grid = Grid::tabulate(n_mu, N_AZIMUTH, |i, j| {
+                    // The azimuth whose stretched image is the j-th node.
+                    let (sin, cos) = (j as f64 / (N_AZIMUTH - 1) as f64 * FRAC_PI_2).sin_cos();
+                    let phi = (sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax));
+                    node(i, phi, at(phi).0, ggx)
+                });
+                // Midpoints in the stretched azimuth t, where the interpolant is smooth: dφ = αφ²/(αx αy) dt.
+                const N: usize = 128;
+                let mut sum = [0.0; 3];
+                for j in 0..N {
+                    let (sin, cos) = ((j as f64 + 0.5) / N as f64 * FRAC_PI_2).sin_cos();
+                    let (alpha, t) = at((sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax)));
+                    let mean = mean_over_cosine(interface, &grid, Stencil::new(t, N_AZIMUTH), alpha);
+                    let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
+                    sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
+                }
+                Self { interface, grid, means: vec![pack_mean(sum)] }
+            }
+        }
+    }
+}
+
+/// Where μ stands in the grid: steps in proportion to μ where μ > α, ever finer ones towards the horizon, and likewise
+/// about the critical angle, where features are as wide as α.
+#[inline]
+fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
+    let x = (asinh(mu / alpha) / asinh(1.0 / alpha)).sqrt();
+    let critical = interface.critical();
+    if critical == 0.0 {
+        return x;
+    }
+    let below = asinh(critical / alpha);
+    0.5 * (x + (asinh((mu - critical) / alpha) + below) / (asinh((1.0 - critical) / alpha) + below))
+}
+
+/// Inverse hyperbolic sine; fast, and odd to the last bit.
+#[inline]
+fn asinh(t: f32) -> f32 {
+    let a = t.abs();
+    (a + (a * a + 1.0).sqrt()).ln().copysign(t)
+}
+
+/// Where a growing function takes the value `x` in \[0, 1\].
+fn invert(x: f32, of: impl Fn(f32) -> f32) -> f32 {
+    let (mut low, mut high) = (0.0f32, 1.0f32);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < x { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// ln α, scaled to \[0, 1\].
+#[inline]
+fn log_alpha(alpha: f32) -> f32 {
+    1.0 - alpha.ln() / LOG_MIN
+}
+
+fn alpha_of(t: f32) -> f32 {
+    ((1.0 - t) * LOG_MIN).exp()
+}
+
+/// The roughness that a direction's azimuth meets, and its stretched azimuth scaled to \[0, 1\].
+#[inline]
+fn azimuth(ggx: Ggx, w: Vec3) -> (f32, f32) {
+    let (x, y, r) = (ggx.ax * w.x.abs(), ggx.ay * w.y.abs(), w.x.hypot(w.y));
+    if r < 1e-12 { (ggx.ax, 0.0) } else { (x.hypot(y) / r, y.atan2(x) * FRAC_2_PI) }
+}
+
+/// Rough shape of the loss.
+#[inline]
+fn shape(mu: f32, alpha: f32) -> f32 {
+    sqr(alpha) / (sqr(mu) + sqr(alpha))
+}
+
+/// Grid values vary slowly where energies do not: the loss is divided by its rough shape, and what the macroscopic
+/// surface would do is taken away from the parts.
+fn pack(interface: Interface, e: Energy, mu: f32, alpha: f32) -> Vec4 {
+    let [a, b] = interface.smooth_parts(mu);
+    let kept = 1.0 - e.loss;
+    Vec4::new(e.loss / shape(mu, alpha), e.parts[0] - kept * a, e.parts[1] - kept * b, 0.0)
+}
+
+#[inline]
+fn unpack(interface: Interface, v: Vec4, mu: f32, alpha: f32) -> Energy {
+    let loss = (v.x * shape(mu, alpha)).clamp(0.0, 1.0);
+    let kept = 1.0 - loss;
+    let [a, b] = interface.smooth_parts(mu);
+    Energy { loss, parts: [(kept * a + v.y).clamp(0.0, kept), (kept * b + v.z).max(0.0)] }
+}
+
+fn pack_mean([loss, a, b]: [f64; 3]) -> Vec4 {
+    Vec4::new(loss.max(1e-30).ln() as f32, a as f32, b as f32, 0.0)
+}
+
+#[inline]
+fn unpack_mean(v: Vec4) -> Energy {
+    Energy { loss: v.x.exp(), parts: [v.y, v.z] }
+}
+
+/// 2 ∫ e(μ) μ dμ of the interpolant.
+fn mean_over_cosine(interface: Interface, grid: &Grid, row: Stencil, alpha: f32) -> [f64; 3] {
+    let energy = |mu: f64| unpack(interface, grid.at(abscissa(interface, mu as f32, alpha), row), mu as f32, alpha);
+    // In the scale of the abscissa, on either side of the critical angle: graded panels of four nodes.
+    let rule = gauss_legendre::<4>();
+    let alpha = f64::from(alpha);
+    let critical = f64::from(interface.critical());
+    const PANELS: usize = 128;
+    let mut sum = [0.0; 3];
+    let mut integrate = |from: f64, to: f64| {
+        // μ = from ± α sinh t.
+        let end = ((to - from).abs() / alpha).asinh();
+        for panel in 0..PANELS {
+            for (x, w) in rule {
+                let t = (panel as f64 + x) / PANELS as f64 * end;
+                let mu = from + (alpha * t.sinh()).copysign(to - from);
+                let weight = 2.0 * mu * alpha * t.cosh() * w * end / PANELS as f64;
+                let e = energy(mu);
+                for (sum, e) in sum.iter_mut().zip([e.loss, e.parts[0], e.parts[1]]) {
+                    *sum += weight * f64::from(e);
+                }
+            }
+        }
+    };
+    if critical > 0.0 {
+        integrate(0.0, 0.5 * critical);
+        integrate(critical, 0.5 * critical);
+    }
+    integrate(critical, 1.0);
+    sum
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normal_incidence_on_unit_roughness_is_known() {
+        let loss = Slice::new(Interface::Mirror, Ggx { ax: 1.0, ay: 1.0 }).at(Vec3::Z).loss;
+        assert!((loss - (1.0 - (1.0 - 2f32.ln()))).abs() < 1e-6, "{loss}");
+    }
+
+    /// The tables against the converged quadrature, between their nodes.
+    #[test]
+    fn interpolation_costs_little() {
+        let rule = Rule::new::<20, 32>();
+        let eta = |eta| Interface::Dielectric { eta };
+        for (interface, bound) in [(Interface::Mirror, 1e-4), (eta(1.5), 5e-4), (eta(1.0 / 1.5), 5e-4)] {
+            let start = std::time::Instant::now();
+            EnergyTable::isotropic(interface);
+            let elapsed = start.elapsed();
+            let mut worst = [0.0f32; 3];
+            for j in 0..=12 {
+                let alpha = 10f32.powf(-4.0 + j as f32 / 3.0);
+                let slice = Slice::new(interface, Ggx { ax: alpha, ay: alpha });
+                let critical = (-10..=10).map(|i| interface.critical() + alpha * i as f32);
+                let mus = (1..=30).map(|i| (i as f32 / 30.0).powi(4)).chain(critical);
+                for mu in mus.filter(|mu| (1e-7..=1.0).contains(mu)) {
+                    let exact = interface.integrate(&rule, mu, 0.0, [alpha, alpha]);
+                    let e = slice.at(Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu));
+                    let pairs = [(e.loss, exact.loss), (e.parts[0], exact.parts[0]), (e.parts[1], exact.parts[1])];
+                    worst = std::array::from_fn(|k| worst[k].max((pairs[k].0 - pairs[k].1).abs()));
+                }
+            }
+            println!("{interface:?}: tabulated in {elapsed:.0?}, worst errors {worst:?}");
+            assert!(worst[0] < bound, "{interface:?}: {worst:?}");
+        }
+    }
+
+    #[test]
+    fn anisotropic_tables_contain_the_isotropic_ones() {
+        // Nearly equal roughnesses take the other road.
+        let near = Slice::new(Interface::Mirror, Ggx { ax: 0.3, ay: 0.3001 });
+        let same = Slice::new(Interface::Mirror, Ggx { ax: 0.3, ay: 0.3 });
+        for i in 1..20 {
+            let mu = i as f32 / 20.0;
+            let r = (1.0 - mu * mu).sqrt();
+            let (a, b) = (near.at(Vec3::new(r * 0.8, r * 0.6, mu)), same.at(Vec3::new(r, 0.0, mu)));
+            assert!((a.loss - b.loss).abs() < 2e-4, "{mu}: {a:?} {b:?}");
+        }
+        assert!((near.mean.loss - same.mean.loss).abs() < 2e-4);
+    }
+}

@@ -1,0 +1,116 @@
+//! Fresnel reflectance: exact for dielectrics and metals, Schlick's approximation for authored colours.
+
+use crate::math::sqr;
+use crate::spectrum::Spectrum;
+use glam::{Vec3, Vec4};
+
+/// Reflectance of a conductor, or of a layer whose reflectance is authored, over the angle.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Fresnel {
+    /// F = F₀ + (F₉₀ − F₀)(1 − cos θ)⁵ (Schlick 1994).
+    Schlick {
+        /// Reflectance at normal incidence.
+        f0: Spectrum,
+        /// Reflectance at grazing incidence.
+        f90: Spectrum,
+    },
+    /// Exact, for the index η − iκ per lane over the outside.
+    Complex {
+        /// Real part.
+        eta: Vec4,
+        /// Extinction κ.
+        k: Vec4,
+    },
+}
+
+impl Fresnel {
+    /// Reflects everything at every angle.
+    pub const ONE: Self = Self::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+
+    /// Schlick's approximation, black to white at the grazing angle.
+    pub fn schlick(f0: Spectrum, f90: Spectrum) -> Self {
+        Self::Schlick { f0, f90 }
+    }
+
+    /// Reflectance at the angle of cosine `cos` ≥ 0.
+    #[inline]
+    pub fn eval(&self, cos: f32) -> Spectrum {
+        match *self {
+            Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, pow5(1.0 - cos)),
+            Self::Complex { eta, k } => conductor(cos, eta, k),
+        }
+    }
+
+    /// Cosine-weighted mean over the hemisphere, 2 ∫ F(μ) μ dμ.
+    pub fn average(&self) -> Spectrum {
+        match *self {
+            Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, 1.0 / 21.0),
+            Self::Complex { .. } => {
+                // Midpoint rule in s = √μ: its nodes crowd at the grazing angle, where metals rise.
+                let n = 256;
+                let h = 1.0 / n as f32;
+                let node = |i: u32| (i as f32 + 0.5) * h;
+                (0..n).map(|i| self.eval(sqr(node(i))) * (4.0 * node(i).powi(3) * h)).sum()
+            }
+        }
+    }
+
+    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶, exact for Schlick and, for metals, at c = 0, 1/7
+    /// and 1 (Hoffman 2019, "Fresnel Equations Considered Harmful").
+    pub fn fit(&self) -> (Spectrum, Spectrum, Spectrum) {
+        match *self {
+            Self::Schlick { f0, f90 } => (f0, f90, Spectrum::ZERO),
+            Self::Complex { .. } => {
+                const C: f32 = 1.0 / 7.0;
+                let (f0, f90) = (self.eval(1.0), Spectrum::ONE);
+                let schlick = Spectrum::lerp(f0, f90, pow5(1.0 - C));
+                (f0, f90, (schlick - self.eval(C)) / (C * pow5(1.0 - C) * (1.0 - C)))
+            }
+        }
+    }
+}
+
+/// x⁵.
+#[inline]
+pub fn pow5(x: f32) -> f32 {
+    sqr(sqr(x)) * x
+}
+
+/// Unpolarised reflectance of an interface between dielectrics and the cosine of the refracted angle, for the cosine
+/// `cos` ≥ 0 of the angle of incidence and the relative index `eta` = η_t/η_i; (1, 0) beyond the critical angle.
+#[inline]
+pub fn dielectric(cos: f32, eta: f32) -> (f32, f32) {
+    // η² − sin²θ, without the cancellation of 1 − sin²θ/η² at the critical angle.
+    let d = (eta - 1.0) * (eta + 1.0) + cos * cos;
+    if d <= 0.0 {
+        return (1.0, 0.0);
+    }
+    let g = d.sqrt(); // η cos θ_t
+    let cos_t = g / eta;
+    let perpendicular = (cos - g) / (cos + g);
+    let parallel = (eta * cos - cos_t) / (eta * cos + cos_t);
+    (0.5 * (sqr(perpendicular) + sqr(parallel)), cos_t)
+}
+
+/// Refracted direction for `wo` on the side of the unit vector `m` (cos = wo·m ≥ 0), by Snell's law.
+#[inline]
+pub fn refract(wo: Vec3, m: Vec3, cos: f32, cos_t: f32, eta: f32) -> Vec3 {
+    (m * (cos / eta - cos_t) - wo / eta).normalize()
+}
+
+/// Unpolarised reflectance of a metal of index η − iκ in every lane (Born & Wolf, section 14.2).
+#[inline]
+pub fn conductor(cos: f32, eta: Vec4, k: Vec4) -> Spectrum {
+    let (c2, s2) = (Vec4::splat(cos * cos), Vec4::splat(1.0 - cos * cos));
+    let (eta2, k2) = (eta * eta, k * k);
+    let t0 = eta2 - k2 - s2;
+    let a2b2 = (t0 * t0 + 4.0 * eta2 * k2).map(f32::sqrt);
+    let a = (0.5 * (a2b2 + t0)).max(Vec4::ZERO).map(f32::sqrt);
+    let (t1, t2) = (a2b2 + c2, 2.0 * cos * a);
+    let perpendicular = (t1 - t2) / (t1 + t2);
+    let (t3, t4) = (c2 * a2b2 + s2 * s2, t2 * s2);
+    // At exactly grazing incidence on an index of 1 both sums vanish; everything is reflected there.
+    let ratio = Vec4::select((t3 + t4).cmpgt(Vec4::ZERO), (t3 - t4) / (t3 + t4), Vec4::ONE);
+    let f = 0.5 * perpendicular * (Vec4::ONE + ratio);
+    Spectrum(Vec4::select((t1 + t2).cmpgt(Vec4::ZERO), f, Vec4::ONE))
+}

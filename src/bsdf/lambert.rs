@@ -1,0 +1,100 @@
+//! Diffuse lobes: Lambert's, and the one that glows through a specular coat.
+
+use super::energy::Slice;
+use super::fresnel::pow5;
+use crate::spectrum::Spectrum;
+use crate::warp::cosine_hemisphere;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
+
+/// f = ρ/π on both sides (Lambert 1760).
+#[derive(Clone, Copy, Debug)]
+pub struct Lambert {
+    /// Albedo ρ.
+    pub reflectance: Spectrum,
+}
+
+/// Diffuse base under a specular coat of directional albedo E_s, coupled so that the two together are reciprocal and
+/// never reflect more than all, and exactly all where the base is white:
+///
+/// ```text
+/// f = ρ/π (1 − E_s(o)) (1 − E_s(i)) / (1 − E_s,avg)
+/// ```
+///
+/// (Ashikhmin & Shirley 2000 in the form of Kelemen & Szirmay-Kalos 2001), per lane.
+#[derive(Clone, Copy, Debug)]
+pub struct CoupledDiffuse {
+    /// ρ/(1 − E_s,avg).
+    scaled: Spectrum,
+    average: Spectrum,
+    coat: Coat,
+}
+
+/// Albedo of a specular coat by Schlick's terms, multiple scattering included.
+#[derive(Clone, Copy, Debug)]
+pub struct Coat {
+    /// F at normal incidence.
+    pub f0: Spectrum,
+    /// F at grazing incidence.
+    pub f90: Spectrum,
+    /// F_ms of the multiply scattered part.
+    pub f_ms: Spectrum,
+    /// Energy of the microsurface; none where the coat is smooth.
+    pub energy: Option<Slice>,
+}
+
+impl Coat {
+    /// 1 − E_s towards `w`, in [0, 1].
+    #[inline]
+    pub fn transmitted(&self, w: Vec3) -> Spectrum {
+        let (loss, schlick) = match &self.energy {
+            None => (0.0, pow5(1.0 - w.z.abs().min(1.0))),
+            Some(slice) => {
+                let e = slice.at(w);
+                (e.loss, e.parts[0])
+            }
+        };
+        self.complement(loss, schlick)
+    }
+
+    /// 1 − E_s,avg, the cosine-weighted mean over the hemisphere.
+    pub fn transmitted_average(&self) -> Spectrum {
+        let (loss, schlick) = self.energy.map_or((0.0, 1.0 / 21.0), |e| (e.mean.loss, e.mean.parts[0]));
+        self.complement(loss, schlick)
+    }
+
+    #[inline]
+    fn complement(&self, loss: f32, schlick: f32) -> Spectrum {
+        let e = self.f0 * (1.0 - loss - schlick) + self.f90 * schlick + self.f_ms * loss;
+        (Spectrum::ONE - e).max(Spectrum::ZERO)
+    }
+}
+
+impl CoupledDiffuse {
+    /// Base of albedo `reflectance` under `coat`.
+    pub fn new(reflectance: Spectrum, coat: Coat) -> Self {
+        let average = coat.transmitted_average();
+        // Where a coat lets nothing through there is no base to be seen.
+        let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
+        Self { scaled, average, coat }
+    }
+
+    /// f \[1/sr\] for directions on the same side.
+    #[inline]
+    pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
+        self.scaled * self.coat.transmitted(wo) * self.coat.transmitted(wi) * FRAC_1_PI
+    }
+
+    /// Directional albedo.
+    #[inline]
+    pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
+        self.scaled * self.coat.transmitted(wo) * self.average
+    }
+}
+
+/// Direction of density |cos θ|/π on the side of `wo`.
+#[inline]
+pub(super) fn sample_cosine(wo: Vec3, u: [f32; 2]) -> Vec3 {
+    let wi = cosine_hemisphere(u);
+    Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z))
+}

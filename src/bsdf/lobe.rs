@@ -1,0 +1,114 @@
+//! The closed family of lobes: one arm each, to the files that know them.
+
+use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
+use super::rough_dielectric::RoughDielectric;
+use super::rough_reflection::{RoughReflection, RoughThin};
+use super::smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
+use super::{Class, Transport};
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
+
+/// One way of scattering.
+#[derive(Clone, Copy, Debug)]
+pub enum Lobe {
+    /// Lambert's.
+    Lambert(Lambert),
+    /// Diffuse base under a specular coat.
+    CoupledDiffuse(CoupledDiffuse),
+    /// Perfectly smooth reflection.
+    Mirror(Mirror),
+    /// Perfectly smooth dielectric interface.
+    SmoothDielectric(SmoothDielectric),
+    /// Straight through a thin sheet.
+    ThinTransmission(ThinTransmission),
+    /// GGX reflection.
+    RoughReflection(RoughReflection),
+    /// GGX transmission through a thin sheet.
+    RoughThin(RoughThin),
+    /// GGX dielectric interface.
+    RoughDielectric(RoughDielectric),
+}
+
+impl Lobe {
+    /// A Lambertian lobe of this albedo.
+    #[inline]
+    pub fn lambert(reflectance: Spectrum) -> Self {
+        Self::Lambert(Lambert { reflectance })
+    }
+
+    /// Which letter of light path expressions it is.
+    #[inline]
+    pub fn class(&self) -> Class {
+        match self {
+            Self::Lambert(_) | Self::CoupledDiffuse(_) => Class::Diffuse,
+            _ => Class::Specular,
+        }
+    }
+
+    /// A delta distribution.
+    #[inline]
+    pub fn is_delta(&self) -> bool {
+        matches!(self, Self::Mirror(_) | Self::SmoothDielectric(_) | Self::ThinTransmission(_))
+    }
+
+    /// Light crosses the surface, other than as a delta.
+    #[inline]
+    pub fn transmits(&self) -> bool {
+        matches!(self, Self::RoughThin(_) | Self::RoughDielectric(_))
+    }
+
+    /// f \[1/sr\] and density \[1/sr\] of `wi` among the draws of this lobe; 0 for deltas.
+    #[inline]
+    pub(super) fn eval(&self, wo: Vec3, wi: Vec3, mode: Transport) -> (Spectrum, f32) {
+        match self {
+            Self::Lambert(l) if wo.z * wi.z > 0.0 => (l.reflectance * FRAC_1_PI, wi.z.abs() * FRAC_1_PI),
+            Self::CoupledDiffuse(l) if wo.z * wi.z > 0.0 => (l.f(wo, wi), wi.z.abs() * FRAC_1_PI),
+            Self::RoughReflection(l) => l.eval(wo, wi),
+            Self::RoughThin(l) => l.eval(wo, wi),
+            Self::RoughDielectric(l) => l.eval(wo, wi, mode),
+            _ => (Spectrum::ZERO, 0.0),
+        }
+    }
+
+    /// Draws `wi` and says which η it crossed; not for deltas.
+    #[inline]
+    pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<(Vec3, f32)> {
+        match self {
+            Self::Lambert(_) | Self::CoupledDiffuse(_) => Some((sample_cosine(wo, u), 1.0)),
+            Self::RoughReflection(l) => Some((l.sample(wo, uc, u)?, 1.0)),
+            Self::RoughThin(l) => Some((l.sample(wo, uc, u)?, 1.0)),
+            Self::RoughDielectric(l) => {
+                let wi = l.sample(wo, uc, u)?;
+                Some((wi, l.crossed(wo, wi)))
+            }
+            Self::Mirror(_) | Self::SmoothDielectric(_) | Self::ThinTransmission(_) => None,
+        }
+    }
+
+    /// The directions of a delta lobe.
+    #[inline]
+    pub(super) fn deltas(&self, wo: Vec3, mode: Transport) -> [Option<Delta>; 2] {
+        match self {
+            Self::Mirror(l) => l.deltas(wo),
+            Self::SmoothDielectric(l) => l.deltas(wo, mode),
+            Self::ThinTransmission(l) => l.deltas(wo),
+            _ => [None, None],
+        }
+    }
+
+    /// Directional albedo, reflection and transmission together: the share of the energy arriving along −`wo` that
+    /// leaves again.
+    pub fn albedo(&self, wo: Vec3) -> Spectrum {
+        match self {
+            Self::Lambert(l) => l.reflectance,
+            Self::CoupledDiffuse(l) => l.albedo(wo),
+            Self::Mirror(l) => l.fresnel.eval(wo.z.abs().min(1.0)),
+            Self::SmoothDielectric(l) => l.albedo(wo),
+            Self::ThinTransmission(l) => l.albedo(wo),
+            Self::RoughReflection(l) => l.albedo(wo),
+            Self::RoughThin(l) => l.albedo(wo),
+            Self::RoughDielectric(l) => l.albedo(wo),
+        }
+    }
+}

@@ -1,0 +1,190 @@
+//! A BSDF: the sum of its lobes, and one choice among them.
+
+use super::{Class, Eval, Lobe, Pdf, Sample, Transport};
+use crate::spectrum::Spectrum;
+use arrayvec::ArrayVec;
+use glam::Vec3;
+
+/// Most lobes of one BSDF.
+pub const MAX_LOBES: usize = 6;
+
+/// f = Σ scale · f_lobe, drawn from by choosing a lobe.
+///
+/// Non-delta lobes form one density: whichever is chosen, `sample` returns Σ f |cos θ| / Σ p·pdf, so that a lobe that is
+/// bad at a direction is helped by one that is good at it. Delta lobes stand apart, each with its probability.
+#[derive(Clone, Debug, Default)]
+pub struct Bsdf {
+    entries: ArrayVec<Entry, MAX_LOBES>,
+    /// Σ weight.
+    total: f32,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Entry {
+    lobe: Lobe,
+    /// Factor on f.
+    scale: f32,
+    /// Selection probability × `total`.
+    weight: f32,
+}
+
+impl Bsdf {
+    /// Scatters nothing.
+    pub fn new() -> Self {
+        Self::default()
+    }
+
+    /// One lobe.
+    #[inline]
+    pub fn single(lobe: Lobe) -> Self {
+        let mut bsdf = Self { entries: ArrayVec::new(), total: 1.0 };
+        bsdf.entries.push(Entry { lobe, scale: 1.0, weight: 1.0 });
+        bsdf
+    }
+
+    /// Adds `scale` times a lobe, chosen in proportion to `weight`. False where there is no room left, or nothing to add:
+    /// a lobe of scale 0. A lobe with scale but without weight gets a little, so that none is ever missed.
+    #[inline]
+    pub fn push(&mut self, lobe: Lobe, scale: f32, weight: f32) -> bool {
+        if !(scale > 0.0) || self.entries.is_full() {
+            return false;
+        }
+        let weight = if weight > 1e-4 { weight } else { 1e-4 };
+        self.total += weight;
+        self.entries.push(Entry { lobe, scale, weight });
+        true
+    }
+
+    /// Adds `scale` times a lobe, chosen in proportion to the energy that it scatters of light along `wo`.
+    pub fn push_by_albedo(&mut self, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
+        let albedo = lobe.albedo(wo);
+        self.push(lobe, scale, scale * albedo.luminance().max(0.25 * albedo.max_element()))
+    }
+
+    /// Nothing scatters.
+    #[inline]
+    pub fn is_empty(&self) -> bool {
+        self.entries.is_empty()
+    }
+
+    /// Some lobe is no delta: sampling lights makes sense.
+    #[inline]
+    pub fn has_smooth(&self) -> bool {
+        self.entries.iter().any(|e| !e.lobe.is_delta())
+    }
+
+    /// Light can come from below, other than as a delta.
+    #[inline]
+    pub fn transmits(&self) -> bool {
+        self.entries.iter().any(|e| e.lobe.transmits())
+    }
+
+    /// Probability that [`Self::sample`] chooses a delta lobe.
+    #[inline]
+    pub fn delta_probability(&self) -> f32 {
+        self.entries.iter().filter(|e| e.lobe.is_delta()).map(|e| e.weight).sum::<f32>() / self.total.max(1e-30)
+    }
+
+    /// Chooses a direction: `uc` picks the lobe (and what it picks itself), `u` the direction. `None` where nothing
+    /// scatters, where the draw failed (its share of the density is lost: it counts as 0), or at a grazing `wo`.
+    #[inline]
+    pub fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2], mode: Transport) -> Option<Sample> {
+        if wo.z == 0.0 {
+            return None;
+        }
+        let (entry, uc) = self.choose(uc, self.total, |_| true)?;
+        if entry.lobe.is_delta() {
+            return self.draw_delta(entry, wo, uc, mode);
+        }
+        let (wi, eta) = entry.lobe.sample(wo, uc, u)?;
+        let Eval { f, specular, pdf } = self.eval(wo, wi, mode);
+        let k = wi.z.abs() / pdf;
+        // A density below the range of f32 gives no number to divide by.
+        (pdf > 0.0 && k.is_finite() && wi.z != 0.0).then(|| Sample {
+            wi,
+            weight: f * k,
+            specular: specular * k,
+            pdf: Pdf::SolidAngle(pdf),
+            eta,
+        })
+    }
+
+    /// f and density of the non-delta lobes for a pair of directions.
+    #[inline]
+    pub fn eval(&self, wo: Vec3, wi: Vec3, mode: Transport) -> Eval {
+        let mut eval = Eval::default();
+        for e in &self.entries {
+            let (f, pdf) = e.lobe.eval(wo, wi, mode);
+            let f = f * e.scale;
+            eval.f += f;
+            if e.lobe.class() == Class::Specular {
+                eval.specular += f;
+            }
+            eval.pdf += pdf * e.weight;
+        }
+        eval.pdf /= self.total.max(1e-30);
+        eval
+    }
+
+    /// Chooses among the delta lobes only; the probability is the one that [`Self::sample`] would have had.
+    pub fn sample_delta(&self, wo: Vec3, uc: f32, mode: Transport) -> Option<Sample> {
+        let sum = self.entries.iter().filter(|e| e.lobe.is_delta()).map(|e| e.weight).sum();
+        let (entry, uc) = self.choose(uc, sum, |e| e.lobe.is_delta())?;
+        if wo.z == 0.0 { None } else { self.draw_delta(entry, wo, uc, mode) }
+    }
+
+    /// Every delta direction with its f |cos θ|, for branching: the weight is divided by no probability, and the pdf
+    /// is `Discrete(1)`. Lobes that agree in direction are one.
+    pub fn deltas(&self, wo: Vec3, mode: Transport) -> ArrayVec<Sample, 8> {
+        let mut samples: ArrayVec<Sample, 8> = ArrayVec::new();
+        if wo.z == 0.0 {
+            return samples;
+        }
+        for e in &self.entries {
+            for d in e.lobe.deltas(wo, mode).into_iter().flatten() {
+                let weight = d.weight * e.scale;
+                if let Some(same) = samples.iter_mut().find(|s| s.wi == d.wi && s.eta == d.eta) {
+                    same.weight += weight;
+                    same.specular += weight;
+                } else {
+                    // One reflection, one straight line and a refraction for each of six lobes: eight suffice.
+                    let sample = Sample { wi: d.wi, weight, specular: weight, pdf: Pdf::Discrete(1.0), eta: d.eta };
+                    let _ = samples.try_push(sample);
+                }
+            }
+        }
+        samples
+    }
+
+    /// Directional albedo, reflection and transmission together.
+    pub fn albedo(&self, wo: Vec3) -> Spectrum {
+        self.entries.iter().map(|e| e.lobe.albedo(wo) * e.scale).sum()
+    }
+
+    /// The lobe at `uc` of those that `among` admits, whose weights sum to `sum`, and `uc` rescaled to [0, 1) in it.
+    #[inline]
+    fn choose(&self, uc: f32, sum: f32, among: impl Fn(&Entry) -> bool) -> Option<(&Entry, f32)> {
+        if let [entry] = self.entries.as_slice() {
+            return among(entry).then_some((entry, uc));
+        }
+        let mut rest = uc * sum;
+        let mut last = None;
+        for entry in self.entries.iter().filter(|e| among(e)) {
+            if rest < entry.weight {
+                return Some((entry, (rest / entry.weight).min(crate::warp::ONE_MINUS_EPSILON)));
+            }
+            rest -= entry.weight;
+            last = Some(entry);
+        }
+        last.map(|entry| (entry, crate::warp::ONE_MINUS_EPSILON))
+    }
+
+    fn draw_delta(&self, entry: &Entry, wo: Vec3, uc: f32, mode: Transport) -> Option<Sample> {
+        let chosen = entry.weight / self.total;
+        let deltas = entry.lobe.deltas(wo, mode);
+        let first = deltas[0].filter(|d| uc < d.probability);
+        let d = first.or(deltas[1]).or(deltas[0])?;
+        let weight = d.weight * (entry.scale / (chosen * d.probability));
+        Some(Sample { wi: d.wi, weight, specular: weight, pdf: Pdf::Discrete(chosen * d.probability), eta: d.eta })
+    }
+}

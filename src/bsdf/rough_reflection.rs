@@ -1,0 +1,184 @@
+//! GGX microfacets that reflect, or pass light on below: conductors, glTF's specular coat, and its thin transmission.
+
+use super::energy::{Energy, Slice};
+use super::ggx::{Ggx, reflect};
+use super::lambert::sample_cosine;
+use super::{Fresnel, Interface};
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
+
+/// GGX reflection with the multiply scattered rest:
+///
+/// ```text
+/// f = F(o·h) D(h) G₂(o, i) / (4 |cos o||cos i|) + F_ms loss(o) loss(i) / (π loss_avg)
+/// ```
+///
+/// (Walter et al. 2007; Heitz 2014; Kulla & Conty 2017). Two-sided.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughReflection {
+    micro: Micro,
+    fresnel: Fresnel,
+    /// F₀, F₉₀, k of [`Fresnel::fit`], for the albedo.
+    fit: (Spectrum, Spectrum, Spectrum),
+    f_ms: Spectrum,
+}
+
+/// What a coat of GGX microfacets lets through an infinitely thin sheet: the reflection lobe mirrored to the other
+/// side, with 1 − F for F and 1 − F_ms for F_ms.
+#[derive(Clone, Copy, Debug)]
+pub struct RoughThin {
+    coat: RoughReflection,
+    tint: Spectrum,
+}
+
+/// A microsurface and its energy.
+#[derive(Clone, Copy, Debug)]
+pub struct Micro {
+    ggx: Ggx,
+    energy: Slice,
+}
+
+impl Micro {
+    /// Microsurface of roughness α along x and y, at least [`super::MIN_ALPHA`].
+    pub fn new(alpha: [f32; 2]) -> Self {
+        let [ax, ay] = alpha.map(|a| a.clamp(super::MIN_ALPHA, 1.0));
+        let ggx = Ggx { ax, ay };
+        Self { ggx, energy: Slice::new(Interface::Mirror, ggx) }
+    }
+
+    /// Isotropic, with the table at hand.
+    #[inline]
+    pub fn isotropic(alpha: f32, table: &'static super::EnergyTable) -> Self {
+        let a = alpha.clamp(super::MIN_ALPHA, 1.0);
+        Self { ggx: Ggx { ax: a, ay: a }, energy: Slice::isotropic(table, a) }
+    }
+
+    /// Its energy table at this roughness.
+    pub fn energy(&self) -> &Slice {
+        &self.energy
+    }
+}
+
+/// F_ms = F² E_avg / (1 − F (1 − E_avg)) of the series of bounces, F the mean of the Fresnel term and
+/// E_avg = 1 − `loss` (Kulla & Conty 2017).
+#[inline]
+pub fn multiple_scattering(f: Spectrum, loss: f32) -> Spectrum {
+    let denominator = Spectrum::ONE - f * loss;
+    (f * f * (1.0 - loss)).div_or_zero(denominator)
+}
+
+impl RoughReflection {
+    /// Microsurface of this material.
+    pub fn new(micro: Micro, fresnel: Fresnel) -> Self {
+        Self::with(micro, fresnel, multiple_scattering(fresnel.average(), micro.energy.mean.loss))
+    }
+
+    /// The same with F_ms given: of a mixture of materials it is the mixture of theirs.
+    #[inline]
+    pub fn with(micro: Micro, fresnel: Fresnel, f_ms: Spectrum) -> Self {
+        Self { micro, fresnel, fit: fresnel.fit(), f_ms }
+    }
+
+    /// Energy of single scattering, and of multiple scattering.
+    #[inline]
+    fn shares(&self, e: Energy) -> (Spectrum, Spectrum) {
+        let (f0, f90, k) = self.fit;
+        let single = f0 * (1.0 - e.loss - e.parts[0]) + f90 * e.parts[0] - k * e.parts[1];
+        (single.max(Spectrum::ZERO), self.f_ms * e.loss)
+    }
+
+    /// Directional albedo; of metals by the fit of their Fresnel term (error below 0.01).
+    pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
+        let (single, multiple) = self.shares(self.micro.energy.at(wo));
+        single + multiple
+    }
+
+    /// Probability of drawing from the multiply scattered part.
+    #[inline]
+    fn multiple_probability(&self, e: Energy, through: bool) -> f32 {
+        if through {
+            return e.loss;
+        }
+        let (single, multiple) = self.shares(e);
+        let (s, m) = (single.max_element(), multiple.max_element());
+        if m > 0.0 { m / (s + m) } else { 0.0 }
+    }
+
+    /// f and density for directions above the horizon.
+    #[inline]
+    fn eval_above(&self, wo: Vec3, wi: Vec3, through: bool) -> (Spectrum, f32) {
+        let Micro { ggx, energy } = &self.micro;
+        let h = (wo + wi).normalize_or(Vec3::Z);
+        let cos = wo.dot(h).clamp(0.0, 1.0);
+        let (e_o, e_i) = (energy.at(wo), energy.at(wi));
+        let q = self.multiple_probability(e_o, through);
+        let (f, f_ms) = (self.fresnel.eval(cos), self.f_ms);
+        let (f, f_ms) = if through { (Spectrum::ONE - f, Spectrum::ONE - f_ms) } else { (f, f_ms) };
+        let single = f * (0.25 * ggx.d(h) * ggx.g2_over_cosines(wo, wi));
+        let multiple = f_ms * (FRAC_1_PI * e_o.loss * e_i.loss / energy.mean.loss);
+        let pdf = (1.0 - q) * 0.25 * ggx.visible_over_cosine(wo, h) + q * wi.z * FRAC_1_PI;
+        (single + multiple, pdf)
+    }
+
+    /// f \[1/sr\] and density \[1/sr\] of `wi`; nothing across the surface.
+    #[inline]
+    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        if wo.z * wi.z <= 0.0 {
+            return (Spectrum::ZERO, 0.0);
+        }
+        self.eval_above(above(wo), above(wi), false)
+    }
+
+    /// Draws `wi`: a mirrored direction at a visible normal, or a cosine-distributed one.
+    #[inline]
+    pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<Vec3> {
+        self.sample_same_side(wo, uc, u, false)
+    }
+
+    #[inline]
+    fn sample_same_side(&self, wo: Vec3, uc: f32, u: [f32; 2], through: bool) -> Option<Vec3> {
+        let o = above(wo);
+        let q = self.multiple_probability(self.micro.energy.at(o), through);
+        if uc < q {
+            return Some(sample_cosine(wo, u));
+        }
+        let wi = reflect(o, self.micro.ggx.sample_visible(o, u));
+        (wi.z > 0.0).then(|| Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z)).normalize())
+    }
+}
+
+impl RoughThin {
+    /// Transmission `tint` (1 − F) under a coat with reflectance F.
+    #[inline]
+    pub fn new(coat: RoughReflection, tint: Spectrum) -> Self {
+        Self { coat, tint }
+    }
+
+    /// Directional albedo.
+    pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
+        self.tint * (Spectrum::ONE - self.coat.albedo(wo)).max(Spectrum::ZERO)
+    }
+
+    /// f \[1/sr\] and density \[1/sr\] of `wi`; nothing on the side of `wo`.
+    #[inline]
+    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+        if wo.z * wi.z >= 0.0 {
+            return (Spectrum::ZERO, 0.0);
+        }
+        let (f, pdf) = self.coat.eval_above(above(wo), above(wi), true);
+        (f * self.tint, pdf)
+    }
+
+    /// Draws `wi`.
+    #[inline]
+    pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<Vec3> {
+        self.coat.sample_same_side(wo, uc, u, true).map(|wi| Vec3::new(wi.x, wi.y, -wi.z))
+    }
+}
+
+/// `w` mirrored to the upper side.
+#[inline]
+fn above(w: Vec3) -> Vec3 {
+    Vec3::new(w.x, w.y, w.z.abs())
+}

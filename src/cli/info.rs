@@ -1,0 +1,75 @@
+//! `radianza info SCENE`.
+
+use super::Failure;
+use radianza::desc::{self, Camera, Fov, Projection};
+use radianza::scene::Scene;
+use std::path::PathBuf;
+
+/// Say what a scene holds.
+#[derive(clap::Args, Debug)]
+pub(crate) struct Arguments {
+    /// The scene: .toml, .gltf, .glb, .obj or .ply
+    #[arg(required_unless_present = "schema")]
+    scene: Option<PathBuf>,
+    /// Print the JSON Schema of .toml scenes, for editors to complete and check them
+    #[arg(long, conflicts_with = "scene")]
+    schema: bool,
+}
+
+/// Prints it.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let Some(path) = &arguments.scene else {
+        println!("{}", desc::toml::schema());
+        return Ok(());
+    };
+    let scene = desc::load(path)?;
+    let compiled = Scene::compile(&scene)?;
+    let info = compiled.info();
+    println!("scene      {} ({})", scene.name, path.display());
+    let [min, max] = [info.bounds.min, info.bounds.max];
+    println!("bounds     {min} to {max} m");
+    print!("surfaces   {} triangles", info.triangles);
+    if info.stored_triangles != info.triangles {
+        print!(" ({} stored, {} instances)", info.stored_triangles, info.instances);
+    }
+    println!(", {} spheres, disks and cylinders, {} objects", info.quadrics, scene.objects.len());
+    println!("materials  {}", list(&info.materials));
+    println!("textures   {} of {} images", info.textures, scene.images.len());
+    println!("lights     {}", info.lights);
+    println!(
+        "memory     {}",
+        memory(&[("meshes", info.mesh_bytes), ("trees", info.bvh_bytes), ("images", info.texture_bytes)])
+    );
+    for (index, camera) in scene.cameras.iter().enumerate() {
+        let name = if camera.name.is_empty() { String::new() } else { format!("`{}` ", camera.name) };
+        println!("camera {index}   {name}{}", view(camera));
+    }
+    scene.notes.iter().for_each(|text| println!("note: {text}"));
+    Ok(())
+}
+
+/// How many, and the first of their names.
+fn list(names: &[String]) -> String {
+    const SHOWN: usize = 20;
+    let more = if names.len() > SHOWN { ", …" } else { "" };
+    format!("{}: {}{more}", names.len(), names[..names.len().min(SHOWN)].join(", "))
+}
+
+fn memory(parts: &[(&str, usize)]) -> String {
+    let mib = |bytes: usize| format!("{:.1} MiB", bytes as f64 / f64::from(1 << 20));
+    let parts_text: Vec<String> = parts.iter().map(|(name, bytes)| format!("{name} {}", mib(*bytes))).collect();
+    format!("{} ({})", mib(parts.iter().map(|(_, bytes)| bytes).sum()), parts_text.join(", "))
+}
+
+fn view(camera: &Camera) -> String {
+    let projection = match camera.projection {
+        Projection::Perspective { fov: Fov::Horizontal(angle) } => format!("{:.2}° across", angle.to_degrees()),
+        Projection::Perspective { fov: Fov::Vertical(angle) } => format!("{:.2}° upright", angle.to_degrees()),
+        Projection::Orthographic { half_height } => format!("orthographic, {} m high", 2.0 * half_height),
+        Projection::Equirectangular => "equirectangular".into(),
+    };
+    let size = camera.resolution.map_or(String::new(), |[w, h]| format!(", {w}×{h}"));
+    let lens =
+        camera.lens.map_or(String::new(), |l| format!(", lens {} m in focus at {} m", l.radius, l.focus_distance));
+    format!("{projection}{size}{lens}")
+}

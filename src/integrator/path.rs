@@ -1,0 +1,84 @@
+//! The path tracer: equation (2), recursion and all, by one random path a sample.
+
+use super::{
+    Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
+};
+use crate::film::PixelSample;
+use crate::math::Ray;
+use crate::sampler::Sampler;
+use crate::spectrum::Spectrum;
+
+/// First vertex at which roulette is played; earlier ends cost more variance than they save.
+const ROULETTE_FROM: u32 = 3;
+
+/// L(x, ω) = Le + ∫ f L |cos| dω with the integral split in two: light that arrives straight from a light, drawn by
+/// the light sampler and met by chance, and light that arrives reflected, by recursion.
+pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
+    let scene = method.scene;
+    let mut sample = PixelSample::default();
+    let (mut ray, mut drawn) = (*ray, Drawn::Camera);
+    let (mut beta, mut eta_scale) = (Spectrum::ONE, 1.0);
+    let mut classes = Classes::default();
+
+    for depth in 0.. {
+        watch.ray();
+        let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
+            let light = beta * environment(method, &ray, drawn);
+            sample.radiance += light;
+            watch.light(light, &classes);
+            watch.escaped(depth, &ray, beta);
+            break;
+        };
+
+        // Le
+        let light = beta * emitted(method, &vertex, drawn);
+        sample.radiance += light;
+        watch.light(light, &classes);
+
+        let shading = scene.shade(&vertex);
+        watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
+        if depth == 0 {
+            first_surface(&mut sample, &ray, &vertex, &shading);
+        }
+        if depth == method.max_depth || shading.bsdf.is_empty() {
+            break;
+        }
+        let [choose_light, choose_lobe] = sampler.next_2d();
+        let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
+
+        // ∫ by light
+        if sees_lights(&shading.bsdf, scene) {
+            let (all, specular) = direct_light(method, &vertex, &shading, choose_light, u_light, watch);
+            let light = beta * all;
+            sample.radiance += light;
+            if O::CLASSES {
+                watch.light(light, &classes.reflected(all, specular));
+            }
+        }
+
+        // ∫ by BSDF
+        let Some(next) = strategy::sample(method, &shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { break };
+        let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
+        beta *= next.weight;
+        eta_scale *= next.eta * next.eta;
+        drawn = Drawn::new(next.pdf, vertex.surface.p);
+        ray = leaving;
+        watch.drawn(drawn, beta);
+        if O::CLASSES {
+            classes = classes.reflected(next.weight, next.specular);
+        }
+
+        // Roulette
+        if beta.is_black() {
+            break;
+        }
+        if depth + 1 >= ROULETTE_FROM {
+            let survival = strategy::survival(beta, eta_scale);
+            if sampler.next_1d() >= survival {
+                break;
+            }
+            beta *= 1.0 / survival;
+        }
+    }
+    sample
+}

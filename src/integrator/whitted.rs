@@ -1,0 +1,62 @@
+//! Whitted's ray tracing (1980): a tree of perfect reflections and refractions, with local illumination by the rest
+//! of each surface. It sums the paths whose reflections are all perfect but the one next to the light.
+
+use super::local::reflected;
+use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface, strategy};
+use crate::bsdf::Transport;
+use crate::film::PixelSample;
+use crate::math::Ray;
+use crate::sampler::Sampler;
+use crate::spectrum::Spectrum;
+
+/// A branch whose weight falls below this plays roulette for its life, so that trees end without bias.
+const FAINT: f32 = 0.05;
+
+/// L = Le + ∫ (f − f_perfect) Le |cos| dω + Σ_perfect k L.
+pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
+    let scene = method.scene;
+    let mut sample = PixelSample::default();
+    let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default())];
+    while let Some((ray, drawn, beta, classes)) = branches.pop() {
+        watch.ray();
+        let depth = classes.reflections();
+        let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
+            let light = beta * environment(method, &ray, drawn);
+            sample.radiance += light;
+            watch.light(light, &classes);
+            watch.escaped(depth, &ray, beta);
+            continue;
+        };
+        let light = beta * emitted(method, &vertex, drawn);
+        sample.radiance += light;
+        watch.light(light, &classes);
+        let shading = scene.shade(&vertex);
+        watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
+        if depth == 0 {
+            first_surface(&mut sample, &ray, &vertex, &shading);
+        }
+        if depth >= method.max_depth {
+            continue;
+        }
+
+        // The smooth lobes: local light.
+        if shading.bsdf.has_smooth() {
+            let smooth = |drawn| matches!(drawn, Drawn::Smooth { .. });
+            let local = reflected(method, &vertex, &shading, sampler, watch, beta, classes, smooth);
+            sample.radiance += beta * local;
+        }
+
+        // The perfect ones: a branch each.
+        for next in shading.bsdf.deltas(shading.wo, Transport::Radiance) {
+            let Some(ray) = shading.leave(&vertex, next.wi) else { continue };
+            let mut beta = beta * next.weight;
+            let survival = strategy::survival(beta, 1.0 / FAINT);
+            if beta.is_black() || sampler.next_1d() >= survival {
+                continue;
+            }
+            beta *= 1.0 / survival;
+            branches.push((ray, Drawn::Delta, beta, classes.reflected(next.weight, next.specular)));
+        }
+    }
+    sample
+}

@@ -1,0 +1,74 @@
+//! What the surface of an area light emits.
+
+use crate::desc::{self, Sides, TextureRef};
+use crate::spectrum::Spectrum;
+use crate::texture::Textures;
+use glam::{Vec2, Vec4};
+use std::f32::consts::PI;
+
+/// Emitted radiance over the surface, the same in all directions of a side that emits.
+#[derive(Clone, Copy, Debug)]
+pub struct Emitter {
+    factor: Spectrum,
+    texture: Option<TextureRef>,
+    vertex_color: bool,
+    sides: Sides,
+}
+
+impl Emitter {
+    /// As written.
+    pub fn new(emission: &desc::Emission) -> Self {
+        let radiance = &emission.radiance;
+        Self {
+            factor: Spectrum::from_rgb(radiance.factor),
+            texture: radiance.texture,
+            vertex_color: radiance.vertex_color,
+            sides: emission.sides,
+        }
+    }
+
+    /// Lₑ \[W·sr⁻¹·m⁻²\] at texture coordinates `uv` and vertex colour `color`.
+    #[inline]
+    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
+        if !self.emits(front) {
+            return Spectrum::ZERO;
+        }
+        let mut le = self.factor;
+        if let Some(texture) = &self.texture {
+            le *= rgb(textures.lookup(texture, uv));
+        }
+        if self.vertex_color {
+            le *= rgb(color);
+        }
+        le
+    }
+
+    /// Whether this side emits at all.
+    #[inline]
+    pub fn emits(&self, front: bool) -> bool {
+        front || self.sides == Sides::Both
+    }
+
+    /// Whether Lₑ is the same at every point.
+    pub fn is_uniform(&self) -> bool {
+        self.texture.is_none() && !self.vertex_color
+    }
+
+    /// Flux \[W\] of an `area` of mean vertex colour `color`, Φ = π A Lₑ for each side, with the texture's mean taken
+    /// for the part of it that the surface shows.
+    pub fn power(&self, area: f32, color: Vec4, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+        let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
+        let mut le = self.factor;
+        if let Some(texture) = &self.texture {
+            le *= rgb(mean(texture.texture));
+        }
+        if self.vertex_color {
+            le *= rgb(color);
+        }
+        le * (PI * area * sides)
+    }
+}
+
+fn rgb(color: Vec4) -> Spectrum {
+    Spectrum::from_rgb([color.x, color.y, color.z])
+}

@@ -1,0 +1,105 @@
+//! Emissive sphere, disk or cylinder.
+
+use super::area::Sight;
+use super::{Emitter, LightSample};
+use crate::bsdf::Pdf;
+use crate::desc;
+use crate::math::Frame;
+use crate::shape::PlacedQuadric;
+use crate::spectrum::Spectrum;
+use crate::texture::Textures;
+use crate::warp::{uniform_cone, uniform_cone_pdf};
+use glam::{DVec3, Vec3, Vec4};
+
+/// A quadric that emits. Spheres seen from outside are sampled uniformly over the cone that they fill; everything else
+/// (disks, cylinders, ellipsoids, spheres from inside) uniformly over the object's area.
+#[derive(Clone, Debug)]
+pub struct QuadricLight {
+    /// The surface.
+    pub shape: PlacedQuadric,
+    /// How it emits.
+    pub emitter: Emitter,
+    /// Centre and radius, if it is a sphere in the world.
+    sphere: Option<(DVec3, f64)>,
+}
+
+/// A sphere from outside.
+struct Cap {
+    /// Unit vector to the centre.
+    axis: DVec3,
+    /// Distance of the centre.
+    distance: f64,
+    /// (d − r)(d + r): square of the distance to the horizon.
+    tangent2: f64,
+    /// 1 − cos θmax of the cone that it fills.
+    one_minus_cos: f32,
+}
+
+impl QuadricLight {
+    /// An emissive shape.
+    pub fn new(shape: PlacedQuadric, emission: &desc::Emission) -> Self {
+        Self { sphere: shape.as_sphere(), shape, emitter: Emitter::new(emission) }
+    }
+
+    /// Draws a point of the surface.
+    pub fn sample(&self, reference: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+        let (point, cone_pdf) = match self.cap(reference) {
+            // The nearer of the two points in which a direction of the cone meets the sphere:
+            // t = (d − r)(d + r) / (d cos θ + √(r² − d² sin² θ)), which cancels nothing.
+            Some((cap, r)) => {
+                let local = uniform_cone(u, cap.one_minus_cos);
+                let w = Frame::from_z(cap.axis.as_vec3()).to_world(local).as_dvec3();
+                let sin2 = local.truncate().as_dvec2().length_squared();
+                let half_chord = (r * r - cap.distance * cap.distance * sin2).max(0.0).sqrt();
+                let t = cap.tangent2 / (cap.distance * f64::from(local.z) + half_chord);
+                (self.shape.point_at(reference.as_dvec3() + w * t), Some(uniform_cone_pdf(cap.one_minus_cos)))
+            }
+            None => (self.shape.quadric.sample_area(u), None),
+        };
+
+        let surface = self.shape.surface_at(&point);
+        let sight = Sight::new(reference, surface.p, surface.ng)?;
+        let area_pdf = || (1.0 / (self.shape.quadric.area() * self.shape.area_scale(point.n))) as f32;
+        let pdf = cone_pdf.unwrap_or_else(|| sight.solid_angle_pdf(area_pdf()));
+        let le = self.emitter.le(&surface.uv, Vec4::ONE, sight.cos > 0.0, textures);
+        (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
+            wi: sight.wi,
+            distance: sight.shadow_end(reference, surface.p, surface.ng),
+            le,
+            pdf: Pdf::SolidAngle(pdf),
+        })
+    }
+
+    /// Density over solid angle of [`sample`](Self::sample) for its point `p` with normal `ng`.
+    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+        match self.cap(reference) {
+            Some((cap, _)) => {
+                // The far side is never drawn.
+                let outward = if self.shape.reversed { -ng } else { ng };
+                if outward.dot(p - reference) < 0.0 { uniform_cone_pdf(cap.one_minus_cos) } else { 0.0 }
+            }
+            None => {
+                let area = self.shape.quadric.area() * self.shape.area_scale_world(ng.as_dvec3());
+                Sight::new(reference, p, ng).map_or(0.0, |sight| sight.solid_angle_pdf((1.0 / area) as f32))
+            }
+        }
+    }
+
+    /// Flux \[W\]; `mean` is the average of a texture.
+    pub fn power(&self, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+        self.emitter.power(self.shape.area() as f32, Vec4::ONE, mean)
+    }
+
+    /// The sphere as seen from `reference`, with its radius; `None` from inside, and for what is no sphere.
+    fn cap(&self, reference: Vec3) -> Option<(Cap, f64)> {
+        let (center, r) = self.sphere?;
+        let to = center - reference.as_dvec3();
+        let distance = to.length();
+        // sin θmax = r/d; 1 − cos θmax = sin²/(1 + cos) keeps its precision from afar.
+        let tangent2 = (distance - r) * (distance + r);
+        let (sin2, cos) = ((r / distance).powi(2), tangent2.max(0.0).sqrt() / distance);
+        let one_minus_cos = (sin2 / (1.0 + cos)) as f32;
+        (tangent2 > 0.0 && one_minus_cos > 0.0)
+            .then_some((Cap { axis: to / distance, distance, tangent2, one_minus_cos }, r))
+    }
+}

@@ -1,0 +1,55 @@
+//! Spot light.
+
+use super::LightSample;
+use super::point::sample_position;
+use crate::math::sqr;
+use crate::spectrum::Spectrum;
+use glam::Vec3;
+use std::f32::consts::TAU;
+
+/// A point light confined to a cone, with the fall-off of KHR_lights_punctual.
+#[derive(Clone, Copy, Debug)]
+pub struct SpotLight {
+    position: Vec3,
+    direction: Vec3,
+    intensity: Spectrum,
+    cos_inner: f32,
+    cos_outer: f32,
+}
+
+impl SpotLight {
+    /// At `position` about the unit vector `direction`, with linear RGB intensity on the axis \[W/sr\] and half-angles
+    /// \[rad\].
+    pub fn new(position: Vec3, direction: Vec3, intensity: [f32; 3], inner: f32, outer: f32) -> Self {
+        Self {
+            position,
+            direction,
+            intensity: Spectrum::from_rgb(intensity),
+            cos_inner: inner.cos(),
+            cos_outer: outer.cos(),
+        }
+    }
+
+    /// E⊥ = I f(θ)/r².
+    #[inline]
+    pub fn sample(&self, p: Vec3) -> Option<LightSample> {
+        sample_position(self.position, p, |w| self.intensity * self.falloff(w.dot(self.direction)))
+    }
+
+    /// f = clamp((cos θ − cos outer)/(cos inner − cos outer), 0, 1)²; a step where the cones coincide.
+    #[inline]
+    fn falloff(&self, cos: f32) -> f32 {
+        if cos >= self.cos_inner {
+            1.0
+        } else if cos <= self.cos_outer {
+            0.0
+        } else {
+            sqr((cos - self.cos_outer) / (self.cos_inner - self.cos_outer))
+        }
+    }
+
+    /// Φ = 2π I ((1 − cos inner) + (cos inner − cos outer)/3), the integral of the fall-off over the sphere.
+    pub fn power(&self) -> Spectrum {
+        self.intensity * (TAU * ((1.0 - self.cos_inner) + (self.cos_inner - self.cos_outer).max(0.0) / 3.0))
+    }
+}

@@ -1,0 +1,100 @@
+//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular and _transmission.
+//!
+//! The specification's mixture is kept, its energy is not: `fresnel_mix` as written reflects more than it receives at
+//! grazing angles, so the diffuse base is coupled to the coat by [`CoupledDiffuse`]. With m metalness, t transmission
+//! and c base colour, f is the sum of
+//!
+//! * GGX with Schlick's F of the mixture (1 − m) dielectric + m metal, F₀ = c for the metal;
+//! * (1 − m)(1 − t) c under the dielectric coat, diffuse;
+//! * (1 − m) t c through the dielectric coat, unbent: thin walls; or, with a volume, the exact refracting interface in
+//!   place of (1 − m) t of the coat and the base, tinted by c.
+
+use super::classic::Dielectric;
+use super::param::{self, Point};
+use super::roughness::Microsurface;
+use crate::bsdf::{
+    Coat, CoupledDiffuse, Fresnel, Lobe, Mirror, RoughReflection, RoughThin, ThinTransmission, multiple_scattering,
+};
+use crate::desc;
+use crate::spectrum::Spectrum;
+
+/// The model, with what is resolved ahead of hits.
+#[derive(Clone, Debug)]
+pub(super) struct MetallicRoughness {
+    desc: desc::MetallicRoughness,
+    micro: Microsurface,
+    /// ((n − 1)/(n + 1))².
+    f0: f32,
+    /// The interface of a volume.
+    interface: Option<Dielectric>,
+}
+
+impl MetallicRoughness {
+    pub(super) fn new(desc: &desc::MetallicRoughness) -> Self {
+        let roughness = desc::Roughness::Perceptual(desc.roughness);
+        let n = desc.ior;
+        // An index of 0 stands for infinity.
+        let f0 = if n > 0.0 { ((n - 1.0) / (n + 1.0)).powi(2) } else { 1.0 };
+        let volume = desc.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0);
+        let interface = volume.then(|| Dielectric::new(n, roughness, desc.base_color));
+        Self { desc: desc.clone(), micro: Microsurface::new(roughness), f0, interface }
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        let d = &self.desc;
+        let transmission = d.transmission.as_ref().map(|t| &t.factor);
+        [Some(&d.metallic), Some(&d.roughness), Some(&d.specular), transmission]
+            .into_iter()
+            .flatten()
+            .all(|p| p.texture.is_none())
+            && param::is_constant(&d.base_color)
+            && param::is_constant(&d.specular_color)
+    }
+
+    /// Hands the lobes and their factors to `push`.
+    pub(super) fn lobes(&self, at: Point, mut push: impl FnMut(Lobe, f32)) {
+        let d = &self.desc;
+        let base = param::share(&d.base_color, at);
+        let metallic = param::scalar(&d.metallic, at);
+        let transmission = d.transmission.as_ref().map_or(0.0, |t| param::scalar(&t.factor, at));
+        let specular = param::scalar(&d.specular, at);
+        let f0 = (param::color(&d.specular_color, at) * self.f0).min(Spectrum::ONE) * specular;
+        let f90 = Spectrum::splat(specular);
+        let micro = self.micro.at(at);
+
+        // The refracting interface takes its share of everything that is not metal.
+        let dielectric = match &self.interface {
+            Some(interface) => {
+                push(interface.lobe(at), (1.0 - metallic) * transmission);
+                (1.0 - metallic) * (1.0 - transmission)
+            }
+            None => 1.0 - metallic,
+        };
+        let (through, beneath) = if self.interface.is_some() { (0.0, 1.0) } else { (transmission, 1.0 - transmission) };
+
+        // Fresnel terms and multiple scattering of the mixture are the mixtures of theirs: both are linear in f.
+        let loss = micro.map_or(0.0, |m| m.energy().mean.loss);
+        let f_ms = |f: Fresnel| multiple_scattering(f.average(), loss);
+        let coat = Fresnel::schlick(f0, f90);
+        let metal = Fresnel::schlick(base, Spectrum::ONE);
+        let mixed = Fresnel::schlick(f0 * dielectric + base * metallic, f90 * dielectric + Spectrum::splat(metallic));
+        let mixed_f_ms = f_ms(coat) * dielectric + f_ms(metal) * metallic;
+        match micro {
+            _ if dielectric * specular + metallic == 0.0 => (),
+            None => push(Lobe::Mirror(Mirror { fresnel: mixed }), 1.0),
+            Some(micro) => push(Lobe::RoughReflection(RoughReflection::with(micro, mixed, mixed_f_ms)), 1.0),
+        }
+
+        if dielectric * beneath > 0.0 && !base.is_black() {
+            let coat = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
+            push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), dielectric * beneath);
+        }
+        if dielectric * through > 0.0 && !base.is_black() {
+            let lobe = match micro {
+                None => Lobe::ThinTransmission(ThinTransmission { fresnel: coat, tint: base }),
+                Some(micro) => Lobe::RoughThin(RoughThin::new(RoughReflection::new(micro, coat), base)),
+            };
+            push(lobe, dielectric * through);
+        }
+    }
+}

@@ -1,0 +1,179 @@
+//! `desc::Scene` → [`Scene`].
+
+use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
+use super::{Info, Scene};
+use crate::bvh::TriangleBvh;
+use crate::desc::{self, Error, Mesh, Object, Shape};
+use crate::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
+use crate::material::Material;
+use crate::math::Transform;
+use crate::shape::{PlacedQuadric, Quadric};
+use crate::texture::Textures;
+use std::path::Path;
+
+/// A mesh that stands in several places is kept once, unless copies of it would be this few triangles: then one flat
+/// tree is faster.
+const FEW_TRIANGLES: usize = 4096;
+
+impl Scene {
+    /// Builds what is traced.
+    ///
+    /// # Errors
+    /// Where an object's transform is singular or not affine.
+    pub fn compile(desc: &desc::Scene) -> Result<Self, Error> {
+        let textures = Textures::new(desc);
+        let mut builder = Builder::new(desc);
+        for object in &desc.objects {
+            builder.place(object)?;
+        }
+        let Builder { materials, parts, prototypes, instances, quadrics, emitters, mut lights, .. } = builder;
+        let geometry = Geometry::new(parts, prototypes, instances, quadrics);
+
+        // Lights without a surface.
+        lights.extend(desc.lights.iter().map(Light::from_desc));
+        let image = |e: &desc::Environment| e.image.map(|i| &*desc.images[i]);
+        lights.extend(desc.environment.iter().map(|e| Light::Environment(Box::new(Environment::new(e, image(e))))));
+        let bounds = geometry.bounds();
+        let (center, radius) = if bounds.is_empty() {
+            (glam::Vec3::ZERO, 1.0)
+        } else {
+            let half = (bounds.max * 0.5 - bounds.min * 0.5).length();
+            (bounds.min * 0.5 + bounds.max * 0.5, half)
+        };
+        let lights = Lights::new(lights, (center, radius), &textures);
+
+        let compiled: Vec<Material> = materials.iter().map(Material::compile).collect();
+        let [stored_triangles, triangles, instances, quadrics] = geometry.counts();
+        let [mesh_bytes, bvh_bytes] = geometry.memory();
+        let info = Info {
+            bounds,
+            stored_triangles,
+            triangles,
+            instances,
+            quadrics,
+            materials: desc.materials.iter().map(|m| m.name.clone()).collect(),
+            lights: lights.all().len(),
+            textures: textures.len(),
+            mesh_bytes,
+            bvh_bytes,
+            texture_bytes: textures.memory(),
+        };
+        Ok(Self {
+            geometry,
+            has_holes: compiled.iter().any(Material::has_holes),
+            materials: compiled,
+            textures,
+            lights,
+            emitters,
+            cameras: desc.cameras.clone(),
+            info,
+        })
+    }
+}
+
+/// Collects what objects turn into.
+struct Builder<'a> {
+    desc: &'a desc::Scene,
+    /// Materials as written, then those of objects with an emission of their own.
+    materials: Vec<desc::Material>,
+    parts: Vec<Part>,
+    prototypes: Vec<Prototype>,
+    /// Prototype of each shape that is instanced.
+    prototype_of: Vec<Option<u32>>,
+    /// Objects that place each shape.
+    uses: Vec<usize>,
+    instances: Vec<Instance>,
+    quadrics: Vec<(PlacedQuadric, Owner)>,
+    emitters: Vec<Option<u32>>,
+    lights: Vec<Light>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(desc: &'a desc::Scene) -> Self {
+        let mut uses = vec![0; desc.shapes.len()];
+        desc.objects.iter().for_each(|o| uses[o.shape] += 1);
+        Self {
+            desc,
+            materials: desc.materials.clone(),
+            parts: Vec::new(),
+            prototypes: Vec::new(),
+            prototype_of: vec![None; desc.shapes.len()],
+            uses,
+            instances: Vec::new(),
+            quadrics: Vec::new(),
+            emitters: Vec::new(),
+            lights: Vec::new(),
+        }
+    }
+
+    fn place(&mut self, object: &Object) -> Result<(), Error> {
+        let transform = Transform::from_mat4(object.to_world).ok_or_else(|| {
+            let file = self.desc.source.as_deref().unwrap_or(Path::new("scene"));
+            let name = &object.name;
+            Error::invalid(file, "", format!("the transform of object `{name}` is singular or not affine"))
+        })?;
+        let material = self.material(object);
+        let emission = self.materials[material as usize].emission;
+        let flip = transform.mirrors() != object.reversed;
+        match &self.desc.shapes[object.shape] {
+            Shape::Mesh(mesh) => {
+                let emitter = emission.map(|emission| {
+                    let first = self.emitters.len() as u32;
+                    for triangle in 0..mesh.indices.len() as u32 {
+                        let (p, attributes) = corners(mesh, triangle);
+                        let p = p.map(|p| transform.to_world.transform_point3(p));
+                        let light = TriangleLight::new(p, &attributes, flip, &emission);
+                        self.emit(light.map(Light::Triangle));
+                    }
+                    first
+                });
+                let owner = Owner { material, emitter };
+                let uses = self.uses[object.shape];
+                if uses == 1 || uses * mesh.indices.len() <= FEW_TRIANGLES {
+                    self.parts.push(Part { mesh: to_world(mesh, &transform), owner, flip });
+                } else {
+                    let prototype = *self.prototype_of[object.shape].get_or_insert_with(|| {
+                        let bvh = TriangleBvh::build(&mesh.positions, &mesh.indices);
+                        self.prototypes.push(Prototype { mesh: mesh.clone(), bvh });
+                        (self.prototypes.len() - 1) as u32
+                    });
+                    self.instances.push(Instance { prototype, transform, owner, flip });
+                }
+            }
+            shape => {
+                if let Some(quadric) = Quadric::from_desc(shape) {
+                    let placed = PlacedQuadric::new(quadric, transform, object.reversed);
+                    let emitter = emission.map(|emission| {
+                        self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, &emission)))));
+                        (self.emitters.len() - 1) as u32
+                    });
+                    self.quadrics.push((placed, Owner { material, emitter }));
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Lists an emitter and, where it can emit, its light.
+    fn emit(&mut self, light: Option<Light>) {
+        self.emitters.push(light.is_some().then_some(self.lights.len() as u32));
+        self.lights.extend(light);
+    }
+
+    /// The object's material, with the object's own emission where it has one.
+    fn material(&mut self, object: &Object) -> u32 {
+        let Some(emission) = object.emission else { return object.material as u32 };
+        let own = desc::Material { emission: Some(emission), ..self.materials[object.material].clone() };
+        self.materials.push(own);
+        (self.materials.len() - 1) as u32
+    }
+}
+
+fn to_world(mesh: &Mesh, transform: &Transform) -> Mesh {
+    let m = &transform.to_world;
+    let mut mesh = mesh.clone();
+    mesh.positions.iter_mut().for_each(|p| *p = m.transform_point3(*p));
+    mesh.normals.iter_mut().for_each(|n| *n = transform.normal_to_world(*n).normalize_or_zero());
+    mesh.tangents.iter_mut().for_each(|t| *t = m.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w));
+    mesh
+}

@@ -1,0 +1,284 @@
+//! Surfaces in space: meshes, instances of meshes, quadrics.
+
+use crate::bvh::{Aabb, BoxBvh, TriangleBvh};
+use crate::desc::Mesh;
+use crate::math::{Ray, Transform, gamma};
+use crate::shape::{PlacedQuadric, Surface, TriangleAttributes, triangle_surface};
+use glam::{Mat3A, Vec3, Vec4};
+
+/// Whose a surface is.
+#[derive(Clone, Copy, Debug)]
+pub struct Owner {
+    /// Which material.
+    pub material: u32,
+    /// Place in the scene's list of emitters; of a mesh, that of its first triangle.
+    pub emitter: Option<u32>,
+}
+
+/// A mesh that stands once, in world space.
+#[derive(Debug)]
+pub struct Part {
+    /// World-space geometry.
+    pub mesh: Mesh,
+    /// Whose it is.
+    pub owner: Owner,
+    /// The front is the side from which the vertices run clockwise.
+    pub flip: bool,
+}
+
+/// A mesh that stands in several places, in object space.
+#[derive(Debug)]
+pub struct Prototype {
+    /// Object-space geometry.
+    pub mesh: Mesh,
+    /// Its triangles.
+    pub bvh: TriangleBvh,
+}
+
+/// A prototype placed in the world.
+#[derive(Debug)]
+pub struct Instance {
+    /// Which prototype.
+    pub prototype: u32,
+    /// Where.
+    pub transform: Transform,
+    /// Whose it is.
+    pub owner: Owner,
+    /// The front is the side from which the vertices, in the world, run clockwise.
+    pub flip: bool,
+}
+
+/// Where a ray met the geometry.
+#[derive(Clone, Copy, Debug)]
+pub struct Hit {
+    /// Ray parameter.
+    pub t: f32,
+    /// Barycentric coordinates of the second and third vertex.
+    uv: [f32; 2],
+    /// Triangle of the world mesh, of the prototype, or nothing for a quadric.
+    triangle: u32,
+    /// Instance, or quadric behind all instances, or [`WORLD`].
+    object: u32,
+}
+
+/// Object of a hit on geometry that stands once.
+const WORLD: u32 = u32::MAX;
+
+/// All surfaces.
+#[derive(Debug)]
+pub struct Geometry {
+    parts: Vec<Part>,
+    /// Part and triangle in it, of every triangle of `world`.
+    origin: Vec<(u32, u32)>,
+    world: TriangleBvh,
+    prototypes: Vec<Prototype>,
+    instances: Vec<Instance>,
+    quadrics: Vec<(PlacedQuadric, Owner)>,
+    objects: BoxBvh,
+}
+
+impl Geometry {
+    /// Builds the hierarchies.
+    pub fn new(
+        parts: Vec<Part>,
+        prototypes: Vec<Prototype>,
+        instances: Vec<Instance>,
+        quadrics: Vec<(PlacedQuadric, Owner)>,
+    ) -> Self {
+        // All parts in one tree.
+        let (mut positions, mut indices, mut origin) = (Vec::new(), Vec::new(), Vec::new());
+        for (p, part) in parts.iter().enumerate() {
+            let base = positions.len() as u32;
+            positions.extend(&part.mesh.positions);
+            indices.extend(part.mesh.indices.iter().map(|t| t.map(|i| i + base)));
+            origin.extend((0..part.mesh.indices.len()).map(|t| (p as u32, t as u32)));
+        }
+        let world = TriangleBvh::build(&positions, &indices);
+
+        // Instances and quadrics in another.
+        let boxes = instances.iter().map(|i| i.bounds(&prototypes[i.prototype as usize]));
+        let boxes = boxes.chain(quadrics.iter().map(|(q, _)| {
+            let (min, max) = q.bounds();
+            Aabb { min, max }
+        }));
+        let objects = BoxBvh::build(&boxes.collect::<Vec<_>>());
+        Self { parts, origin, world, prototypes, instances, quadrics, objects }
+    }
+
+    /// Nearest hit in (0, `ray.t_max`).
+    #[inline]
+    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut nearest =
+            self.world.nearest(ray).map(|h| Hit { t: h.t, uv: [h.u, h.v], triangle: h.triangle, object: WORLD });
+        if self.objects.is_empty() {
+            return nearest;
+        }
+        let rest = Ray { t_max: nearest.map_or(ray.t_max, |h| h.t), ..*ray };
+        self.objects.traverse(&rest, |object, ray| {
+            let hit = self.object(object, ray)?;
+            nearest = Some(hit);
+            Some(hit.t)
+        });
+        nearest
+    }
+
+    /// Whether anything is hit in (0, `ray.t_max`).
+    #[inline]
+    pub fn occluded(&self, ray: &Ray) -> bool {
+        self.world.occluded(ray)
+            || (!self.objects.is_empty()
+                && self.objects.traverse(ray, |object, ray| {
+                    match self.instances.get(object as usize) {
+                        Some(instance) => instance.occluded(&self.prototypes[instance.prototype as usize], ray),
+                        None => self.quadrics[object as usize - self.instances.len()].0.intersect(ray).is_some(),
+                    }
+                    .then_some(0.0)
+                }))
+    }
+
+    /// Nearest hit of one instance or quadric.
+    fn object(&self, object: u32, ray: &Ray) -> Option<Hit> {
+        match self.instances.get(object as usize) {
+            Some(instance) => {
+                let hit = instance.nearest(&self.prototypes[instance.prototype as usize], ray)?;
+                Some(Hit { t: hit.t, uv: [hit.u, hit.v], triangle: hit.triangle, object })
+            }
+            None => {
+                let t = self.quadrics[object as usize - self.instances.len()].0.intersect(ray)?;
+                Some(Hit { t, uv: [0.0; 2], triangle: 0, object })
+            }
+        }
+    }
+
+    /// The surface at a hit of `ray`, and whose it is (with the emitter of this very triangle).
+    #[inline]
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
+        let [u, v] = hit.uv;
+        if hit.object == WORLD {
+            let (part, triangle) = self.origin[hit.triangle as usize];
+            let part = &self.parts[part as usize];
+            let (p, attributes) = corners(&part.mesh, triangle);
+            return (triangle_surface(p, u, v, &attributes, part.flip), part.owner.of_triangle(triangle));
+        }
+        match self.instances.get(hit.object as usize) {
+            Some(instance) => {
+                let mesh = &self.prototypes[instance.prototype as usize].mesh;
+                (instance.surface(mesh, hit.triangle, u, v), instance.owner.of_triangle(hit.triangle))
+            }
+            None => {
+                let (quadric, owner) = &self.quadrics[hit.object as usize - self.instances.len()];
+                (quadric.surface(ray, hit.t), *owner)
+            }
+        }
+    }
+
+    /// Box about everything.
+    pub fn bounds(&self) -> Aabb {
+        self.world.bounds().union(self.objects.bounds())
+    }
+
+    /// Triangles stored, triangles as placed, instances, quadrics.
+    pub fn counts(&self) -> [usize; 4] {
+        let placed = |i: &Instance| self.prototypes[i.prototype as usize].mesh.indices.len();
+        let prototypes: usize = self.prototypes.iter().map(|p| p.mesh.indices.len()).sum();
+        let instanced: usize = self.instances.iter().map(placed).sum();
+        [self.origin.len() + prototypes, self.origin.len() + instanced, self.instances.len(), self.quadrics.len()]
+    }
+
+    /// Bytes of meshes and of hierarchies.
+    pub fn memory(&self) -> [usize; 2] {
+        let meshes = self.parts.iter().map(|p| &p.mesh).chain(self.prototypes.iter().map(|p| &p.mesh));
+        let trees = self.prototypes.iter().map(|p| p.bvh.memory()).sum::<usize>();
+        [
+            meshes.map(mesh_bytes).sum::<usize>() + size_of_val(&self.origin[..]),
+            self.world.memory() + self.objects.memory() + trees,
+        ]
+    }
+}
+
+impl Owner {
+    fn of_triangle(self, triangle: u32) -> Self {
+        Self { emitter: self.emitter.map(|first| first + triangle), ..self }
+    }
+}
+
+impl Instance {
+    /// The ray in object space, and how much of its parameter was skipped: its origin is rounded, and hits nearer than
+    /// that error are none, or the surface that the ray leaves could be met again (PBRT 4th ed., section 6.8.5).
+    #[inline]
+    fn ray(&self, ray: &Ray) -> (Ray, f32) {
+        let m = &self.transform.to_object;
+        let o = m.transform_point3(ray.o);
+        let d = m.transform_vector3(ray.d);
+        let error = (abs(&m.matrix3) * ray.o.abs() + Vec3::from(m.translation).abs()) * gamma(4);
+        let shift = d.abs().dot(error) / d.length_squared();
+        (Ray { o: o + d * shift, d, t_max: ray.t_max - shift }, shift)
+    }
+
+    fn nearest(&self, prototype: &Prototype, ray: &Ray) -> Option<crate::bvh::TriangleHit> {
+        let (local, skipped) = self.ray(ray);
+        let hit = prototype.bvh.nearest(&local)?;
+        Some(crate::bvh::TriangleHit { t: hit.t + skipped, ..hit })
+    }
+
+    fn occluded(&self, prototype: &Prototype, ray: &Ray) -> bool {
+        prototype.bvh.occluded(&self.ray(ray).0)
+    }
+
+    fn bounds(&self, prototype: &Prototype) -> Aabb {
+        let m = &self.transform.to_world;
+        let local = prototype.bvh.bounds();
+        let world = Aabb::of(local.corners().map(|c| m.transform_point3(c)));
+        // The corners are rounded.
+        let reach =
+            (abs(&m.matrix3) * local.min.abs().max(local.max.abs()) + Vec3::from(m.translation).abs()) * gamma(4);
+        Aabb { min: world.min - reach, max: world.max + reach }
+    }
+
+    /// The surface, in the world, of a triangle of the prototype.
+    fn surface(&self, mesh: &Mesh, triangle: u32, u: f32, v: f32) -> Surface {
+        let m = &self.transform.to_world;
+        let (local, mut attributes) = corners(mesh, triangle);
+        let p = local.map(|p| m.transform_point3(p));
+        attributes.normals =
+            attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero()));
+        attributes.tangents = attributes.tangents.map(|t| t.map(|t| m.transform_vector3(t.truncate()).extend(t.w)));
+        let mut surface = triangle_surface(p, u, v, &attributes, self.flip);
+        // Errors of the map to the world, and of the map back that the next ray takes.
+        let reach = local.iter().fold(Vec3::ZERO, |r, p| r.max(p.abs()));
+        let outward = abs(&m.matrix3) * reach + Vec3::from(m.translation).abs();
+        let inverse = &self.transform.to_object;
+        let inward = abs(&inverse.matrix3) * surface.p.abs() + Vec3::from(inverse.translation).abs();
+        surface.p_error += outward * gamma(4) + abs(&m.matrix3) * (inward * gamma(4));
+        surface
+    }
+}
+
+fn abs(m: &Mat3A) -> Mat3A {
+    Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
+}
+
+/// Vertices of a triangle and what they carry.
+#[inline]
+pub(super) fn corners(mesh: &Mesh, triangle: u32) -> ([Vec3; 3], TriangleAttributes) {
+    let index = mesh.indices[triangle as usize];
+    fn pick<T: Copy>(list: &[T], index: [u32; 3]) -> Option<[T; 3]> {
+        (!list.is_empty()).then(|| index.map(|i| list[i as usize]))
+    }
+    let attributes = TriangleAttributes {
+        normals: pick(&mesh.normals, index),
+        tangents: pick(&mesh.tangents, index),
+        uv: [pick(&mesh.uv[0], index), pick(&mesh.uv[1], index)],
+        colors: pick(&mesh.colors, index),
+    };
+    (index.map(|i| mesh.positions[i as usize]), attributes)
+}
+
+fn mesh_bytes(mesh: &Mesh) -> usize {
+    size_of_val(&mesh.positions[..])
+        + size_of_val(&mesh.indices[..])
+        + size_of_val(&mesh.normals[..])
+        + size_of_val::<[Vec4]>(&mesh.tangents)
+        + mesh.uv.iter().map(|uv| size_of_val(&uv[..])).sum::<usize>()
+        + size_of_val(&mesh.colors[..])
+}

@@ -1,0 +1,141 @@
+//! What is traced: geometry behind two questions, materials, textures and lights, compiled from a description.
+
+mod compile;
+mod geometry;
+mod info;
+mod shading;
+
+pub use geometry::{Geometry, Hit};
+pub use info::Info;
+pub use shading::Shading;
+
+use crate::desc;
+use crate::light::{LightSample, Lights};
+use crate::material::Material;
+use crate::math::{Ray, offset_origin};
+use crate::shape::Surface;
+use crate::spectrum::Spectrum;
+use crate::texture::Textures;
+use glam::Vec3;
+
+/// A compiled scene.
+#[derive(Debug)]
+pub struct Scene {
+    /// Surfaces.
+    pub geometry: Geometry,
+    /// Materials; [`Vertex::material`] indexes them.
+    pub materials: Vec<Material>,
+    /// Textures of the materials and lights.
+    pub textures: Textures,
+    /// Lights; [`Vertex::light`] indexes them.
+    pub lights: Lights,
+    /// Light of each emissive triangle and quadric; none where a triangle has no area in the world.
+    emitters: Vec<Option<u32>>,
+    /// Cameras as written: the resolution decides how they become rays.
+    pub cameras: Vec<desc::Camera>,
+    /// Some material has holes, so that a shadow ray must look at what it meets.
+    has_holes: bool,
+    info: Info,
+}
+
+/// Where a ray met a surface.
+#[derive(Clone, Copy, Debug)]
+pub struct Vertex {
+    /// The point and its frame, world space.
+    pub surface: Surface,
+    /// Towards where the ray came from, unit, world space.
+    pub wo: Vec3,
+    /// Which material.
+    pub material: u32,
+    /// Which light, where the surface emits.
+    pub light: Option<u32>,
+    /// The ray came from the side of the geometric normal.
+    pub front: bool,
+}
+
+impl Scene {
+    /// The nearest surface along a ray of unit direction. Where a material has holes the ray passes with probability
+    /// 1 − coverage; `u` gives the numbers in [0, 1) that decide.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
+        let mut ray = *ray;
+        loop {
+            let hit = self.geometry.nearest(&ray)?;
+            let vertex = self.vertex(&ray, &hit);
+            if !self.has_holes {
+                return Some(vertex);
+            }
+            let coverage = self.coverage(&vertex);
+            if coverage >= 1.0 || u() < coverage {
+                return Some(vertex);
+            }
+            ray = self.beyond(&ray, &vertex);
+        }
+    }
+
+    /// Share of light that arrives at `vertex`: 0 or 1, or between where the way leads through holes.
+    #[inline]
+    pub fn visibility(&self, vertex: &Vertex, light: &LightSample) -> f32 {
+        let s = &vertex.surface;
+        let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
+        let mut ray = Ray { o, d: light.wi, t_max: light.distance };
+        if !self.has_holes {
+            return if self.geometry.occluded(&ray) { 0.0 } else { 1.0 };
+        }
+        let mut share = 1.0;
+        while let Some(hit) = self.geometry.nearest(&ray) {
+            let vertex = self.vertex(&ray, &hit);
+            share *= 1.0 - self.coverage(&vertex);
+            if share <= 0.0 {
+                return 0.0;
+            }
+            ray = self.beyond(&ray, &vertex);
+            if ray.t_max <= 0.0 {
+                break;
+            }
+        }
+        share
+    }
+
+    /// Frame, lobes and local `wo` at a vertex.
+    #[inline]
+    pub fn shade(&self, vertex: &Vertex) -> Shading {
+        Shading::new(&self.materials[vertex.material as usize], vertex, &self.textures)
+    }
+
+    /// Le towards where the ray came from.
+    #[inline]
+    pub fn emission(&self, vertex: &Vertex) -> Spectrum {
+        let s = &vertex.surface;
+        self.materials[vertex.material as usize].emission(&s.uv, s.color, vertex.front, &self.textures)
+    }
+
+    /// Counts and sizes for people.
+    pub fn info(&self) -> &Info {
+        &self.info
+    }
+
+    #[inline]
+    fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
+        let (surface, owner) = self.geometry.surface(ray, hit);
+        let wo = -ray.d.normalize();
+        let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
+        Vertex { surface, wo, material: owner.material, light, front: wo.dot(surface.ng) > 0.0 }
+    }
+
+    fn coverage(&self, vertex: &Vertex) -> f32 {
+        let material = &self.materials[vertex.material as usize];
+        if !material.has_holes() {
+            return 1.0;
+        }
+        material.coverage(&vertex.surface.uv, vertex.surface.color, &self.textures)
+    }
+
+    /// The rest of the ray behind a vertex.
+    fn beyond(&self, ray: &Ray, vertex: &Vertex) -> Ray {
+        let s = &vertex.surface;
+        let o = offset_origin(s.p, s.p_error, s.ng, ray.d);
+        let passed = (o - ray.o).dot(ray.d) / ray.d.length_squared();
+        Ray { o, d: ray.d, t_max: ray.t_max - passed }
+    }
+}

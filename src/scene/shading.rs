@@ -1,0 +1,77 @@
+//! A vertex with its shading frame and lobes.
+
+use super::Vertex;
+use crate::bsdf::Bsdf;
+use crate::material::Material;
+use crate::math::{Frame, Ray, offset_origin};
+use crate::texture::Textures;
+use glam::Vec3;
+
+/// What scatters at a vertex. The frame's z is the shading normal on the front side.
+#[derive(Clone, Debug)]
+pub struct Shading {
+    /// Shading frame.
+    pub frame: Frame,
+    /// Towards where the ray came from, local.
+    pub wo: Vec3,
+    /// The lobes.
+    pub bsdf: Bsdf,
+}
+
+impl Shading {
+    /// Evaluates the material.
+    #[inline]
+    pub fn new(material: &Material, vertex: &Vertex, textures: &Textures) -> Self {
+        let s = &vertex.surface;
+        let ns = material.shading_normal(s, textures).unwrap_or(s.ns);
+        let ns = facing(ns, vertex.wo, vertex.front);
+        let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
+        let wo = frame.to_local(vertex.wo);
+        Self { frame, wo, bsdf: material.bsdf(s, wo, textures) }
+    }
+
+    /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the
+    /// shading normal. Where they disagree light would leak through the surface, or reflection into it.
+    #[inline]
+    pub fn agrees(&self, vertex: &Vertex, wi: Vec3, local: Vec3) -> bool {
+        wi.dot(vertex.surface.ng) * local.z > 0.0
+    }
+
+    /// The ray that leaves along `wi` (local), off the surface by its error bound; `None` where the direction is on
+    /// different sides of the surface and of the shading normal.
+    #[inline]
+    pub fn leave(&self, vertex: &Vertex, wi: Vec3) -> Option<Ray> {
+        let d = self.frame.to_world(wi).normalize();
+        let s = &vertex.surface;
+        self.agrees(vertex, d, wi).then(|| Ray::new(offset_origin(s.p, s.p_error, s.ng, d), d))
+    }
+}
+
+/// A shading normal that sees `wo` from the side from which the surface does. Interpolated and mapped normals near a
+/// silhouette may look away; they are turned towards `wo` until they see it at a grazing angle, instead of leaving
+/// a black rim.
+#[inline]
+fn facing(ns: Vec3, wo: Vec3, front: bool) -> Vec3 {
+    /// Cosine of the grazing angle.
+    const GRAZING: f32 = 0.01;
+    let side = if front { 1.0 } else { -1.0 };
+    let cos = ns.dot(wo) * side;
+    if cos > 0.0 {
+        return ns;
+    }
+    (ns + wo * (side * (GRAZING - cos))).normalize_or(wo * side)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn normals_that_look_away_are_turned_to_a_grazing_view() {
+        let wo = Vec3::new(0.6, 0.0, 0.8);
+        let away = Vec3::new(-0.9, 0.1, 0.2).normalize();
+        assert!(facing(away, wo, true).dot(wo) > 0.0);
+        assert!(facing(-away, wo, false).dot(wo) < 0.0);
+        assert_eq!(facing(Vec3::Z, wo, true), Vec3::Z);
+    }
+}

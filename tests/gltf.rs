@@ -1,0 +1,22 @@
+//! The glTF reader: every feature on a document built for it, hostile files, mutated files, and real ones.
+
+#[path = "gltf/assets.rs"]
+mod assets;
+#[path = "gltf/document.rs"]
+mod document;
+#[path = "gltf/files.rs"]
+mod files;
+#[path = "gltf/geometry.rs"]
+mod geometry;
+#[path = "gltf/hostile.rs"]
+mod hostile;
+#[path = "gltf/materials.rs"]
+mod materials;
+#[path = "gltf/mutations.rs"]
+mod mutations;
+#[path = "gltf/tangents.rs"]
+mod tangents;
+#[path = "gltf/textures.rs"]
+mod textures;
+#[path = "gltf/world.rs"]
+mod world;

@@ -1,0 +1,141 @@
+//! Textures, samplers, images, KHR_texture_transform.
+
+use super::document::{Document, noted, parse};
+use radianza::desc::{ErrorKind, Model, Pixels, Scene, Texture, TextureRef, Wrap};
+use radianza::glam::Vec2;
+use serde_json::{Value, json};
+
+const RED: [u8; 4] = [255, 0, 0, 255];
+const SEE: [u8; 4] = [1, 2, 3, 4];
+
+fn textured(info: Value) -> Document {
+    let mut d = Document::material(json!({ "pbrMetallicRoughness": { "baseColorTexture": info } }));
+    d.texture([2, 1], &[RED, SEE]);
+    d
+}
+
+fn base(scene: &Scene) -> Option<TextureRef> {
+    match &scene.materials[0].model {
+        Model::MetallicRoughness(p) => p.base_color.texture,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn png_pixels_arrive_as_stored() {
+    let scene = textured(json!({ "index": 0 })).read().unwrap();
+    assert_eq!(scene.images[0].size, [2, 1]);
+    assert_eq!(scene.images[0].pixels, Pixels::Rgba8(vec![RED, SEE]));
+    let default = Texture::Image { image: 0, srgb: true, wrap: [Wrap::Repeat; 2], nearest: false };
+    assert_eq!(scene.textures, [default]);
+}
+
+#[test]
+fn jpeg_and_data_uris() {
+    let mut jpeg = std::io::Cursor::new(Vec::new());
+    image::RgbImage::from_pixel(8, 4, image::Rgb([200, 100, 50]))
+        .write_to(&mut jpeg, image::ImageFormat::Jpeg)
+        .unwrap();
+    let mut d = textured(json!({ "index": 0 }));
+    let encoded = base64::Engine::encode(&base64::prelude::BASE64_STANDARD, jpeg.into_inner());
+    d.set("/images/0", json!({ "uri": format!("data:image/jpeg;base64,{encoded}") }));
+    let scene = d.read().unwrap();
+    assert_eq!(scene.images[0].size, [8, 4]);
+    let Pixels::Rgba8(pixels) = &scene.images[0].pixels else { panic!("floats") };
+    for (found, expected) in pixels[0].iter().zip([200u8, 100, 50, 255]) {
+        assert!(found.abs_diff(expected) <= 3, "{:?}", pixels[0]);
+    }
+}
+
+#[test]
+fn samplers() {
+    let with = |sampler: Value| {
+        let mut d = textured(json!({ "index": 0 }));
+        d.set("/samplers", json!([sampler])).set("/textures/0/sampler", json!(0));
+        d
+    };
+    let texture = |sampler| with(sampler).read().unwrap().textures[0].clone();
+    let of = |wrap, nearest| Texture::Image { image: 0, srgb: true, wrap, nearest };
+    assert_eq!(texture(json!({})), of([Wrap::Repeat; 2], false));
+    assert_eq!(
+        texture(json!({ "wrapS": 33071, "wrapT": 33648, "magFilter": 9728 })),
+        of([Wrap::Clamp, Wrap::Mirror], true)
+    );
+    assert_eq!(texture(json!({ "wrapS": 10497, "magFilter": 9729, "minFilter": 9987 })), of([Wrap::Repeat; 2], false));
+    with(json!({ "wrapT": 5 })).fails("/samplers/0/wrapT", "no wrap mode");
+    with(json!({ "magFilter": 9987 })).fails("/samplers/0/magFilter", "no filter");
+    textured(json!({ "index": 0 }))
+        .set("/textures/0/sampler", json!(3))
+        .fails("/textures/0/sampler", "refers to sampler 3");
+}
+
+#[test]
+fn transforms_per_slot() {
+    let transform =
+        json!({ "offset": [0.25, 0.5], "rotation": std::f32::consts::FRAC_PI_2, "scale": [2, 3], "texCoord": 1 });
+    let mut d = textured(json!({ "index": 0, "texCoord": 0, "extensions": { "KHR_texture_transform": transform } }));
+    d.set("/extensionsRequired", json!(["KHR_texture_transform"]));
+    d.set(
+        "/materials/0/normalTexture",
+        json!({ "index": 0, "extensions": { "KHR_texture_transform": { "scale": [4, 5] } } }),
+    );
+    d.attribute("TEXCOORD_1", "VEC2", &[[0.0; 2]; 3]);
+    let scene = d.read().unwrap();
+    let t = base(&scene).unwrap();
+    assert_eq!(t.uv_set, 1);
+    // T R S (1, 1) = T R (2, 3) = T (3, −2): a turn against the clock where v points down.
+    assert!(t.transform.transform_point2(Vec2::ONE).abs_diff_eq(Vec2::new(3.25, -1.5), 1e-5), "{}", t.transform);
+    let n = scene.materials[0].normal_map.unwrap().texture;
+    assert_eq!((n.uv_set, n.transform.transform_point2(Vec2::ONE)), (0, Vec2::new(4.0, 5.0)));
+}
+
+#[test]
+fn higher_uv_sets_are_left_out() {
+    let scene = textured(json!({ "index": 0, "texCoord": 2 })).read().unwrap();
+    assert!(base(&scene).is_none() && noted(&scene, "TEXCOORD_2 and above"));
+}
+
+#[test]
+fn basisu_needs_a_fallback() {
+    let mut d = textured(json!({ "index": 0 }));
+    d.set("/extensionsUsed", json!(["KHR_texture_basisu"]));
+    d.set("/textures/0/extensions/KHR_texture_basisu", json!({ "source": 0 }));
+    let scene = d.read().unwrap();
+    assert!(noted(&scene, "`KHR_texture_basisu` is not honoured yet") && base(&scene).is_some());
+    d.remove("/textures/0/source").fails("/textures/0/source", "`KHR_texture_basisu`");
+    assert_eq!(d.read().unwrap_err().kind, ErrorKind::Unsupported);
+    d.set("/textures/0", json!({})).fails("/textures/0/source", "has no source");
+}
+
+#[test]
+fn broken_references_and_images() {
+    textured(json!({ "index": 7 }))
+        .fails("/materials/0/pbrMetallicRoughness/baseColorTexture/index", "texture 7; the file has 1");
+    textured(json!({ "index": 0 }))
+        .set("/textures/0/source", json!(2))
+        .fails("/textures/0/source", "refers to image 2");
+    textured(json!({ "index": 0 })).set("/images/0", json!({})).fails("/images/0", "uri and bufferView");
+    textured(json!({ "index": 0 }))
+        .set("/images/0/bufferView", json!(99))
+        .fails("/images/0/bufferView", "buffer view 99");
+    textured(json!({ "index": 0 }))
+        .set("/images/0", json!({ "uri": "data:image/png;base64,AAAA" }))
+        .fails("/images/0", "");
+    textured(json!({ "index": 0 }))
+        .set("/images/0", json!({ "uri": "data:image/png" }))
+        .fails("/images/0/uri", "no comma");
+    textured(json!({ "index": 0 }))
+        .set("/images/0", json!({ "uri": "https://x.y/z.png" }))
+        .fails("/images/0/uri", "scheme");
+    let missing = textured(json!({ "index": 0 })).set("/images/0", json!({ "uri": "a%20b.png" })).read().unwrap_err();
+    assert_eq!((missing.kind, missing.place.as_str()), (ErrorKind::Missing, "/images/0/uri"));
+    assert!(missing.message.contains("`a b.png`"), "{missing}");
+}
+
+#[test]
+fn textures_that_nothing_uses_are_not_read() {
+    let mut d = Document::triangle();
+    d.set("/images", json!([{ "uri": "missing.png" }])).set("/textures", json!([{ "source": 0 }]));
+    d.set("/materials", json!([{ "normalTexture": { "index": 0 } }]));
+    assert!(parse(&d.glb()).unwrap().images.is_empty());
+}
