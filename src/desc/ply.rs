@@ -45,9 +45,10 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Scene, Error> {
 /// The mesh of a file, and how many faces were no polygons.
 fn mesh(bytes: &[u8], path: &Path) -> Result<(Mesh, usize), Error> {
     let failed = |e: ParseError| {
-        // The parser quotes the line; its place is enough.
-        let message = e.to_string().replace(['\n', '\t'], " ");
-        let message: String = message.chars().take(300).collect();
+        // The parser quotes the line, and its own errors in each other; the innermost one and the place are enough.
+        let message = e.to_string();
+        let message = message.rsplit("Error: ").next().unwrap_or_default().replace(['\n', '\t'], " ");
+        let message: String = message.chars().take(200).collect();
         Error::invalid(path, e.line().map(|l| l.to_string()).unwrap_or_default(), message)
     };
     let mut reader = Reader::new(bytes);

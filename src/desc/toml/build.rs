@@ -11,8 +11,8 @@ use glam::Mat4;
 use std::collections::HashMap;
 use std::ops::Range;
 
-/// Most objects of one scene: nested groups multiply.
-const MAX_OBJECTS: usize = 1 << 24;
+/// Most memory that placed objects and lights may take \[bytes\]: nested groups multiply.
+const MAX_PLACED: usize = 1 << 30;
 
 /// A scene under construction.
 pub(super) struct Builder<'a> {
@@ -29,6 +29,8 @@ pub(super) struct Builder<'a> {
     open: Vec<(&'static str, usize)>,
     /// The material of shapes that only emit.
     absorb: Option<usize>,
+    /// Memory that was spent on placing \[bytes\].
+    placed: usize,
 }
 
 /// Objects and lights that stand together.
@@ -51,6 +53,7 @@ impl<'a> Builder<'a> {
             groups: HashMap::new(),
             open: Vec::new(),
             absorb: None,
+            placed: 0,
         }
     }
 
@@ -102,7 +105,7 @@ impl<'a> Builder<'a> {
             let index = find(&self.file.group, "group", &instance.group)?;
             let group = self.group(index, &instance.group.at)?;
             let name = instance.name.as_deref().unwrap_or(&instance.group.value);
-            part.add(&group, to_parent, material, Some(name), &instance.group.at)?;
+            part.add(&group, to_parent, material, Some(name), &instance.group.at, &mut self.placed)?;
         }
         Ok(part)
     }
@@ -124,7 +127,7 @@ impl<'a> Builder<'a> {
                 object.reversed ^= reversed;
             }
             let name = (!name.is_empty()).then_some(name.as_str());
-            return part.add(&content, to_parent, material, name, &f.file.at);
+            return part.add(&content, to_parent, material, name, &f.file.at, &mut self.placed);
         }
         let material = match material {
             Some(index) => index,
@@ -311,9 +314,14 @@ impl Part {
         material: Option<usize>,
         name: Option<&str>,
         at: &Range<usize>,
+        placed: &mut usize,
     ) -> Result<(), Fault> {
-        if self.objects.len() + other.objects.len() > MAX_OBJECTS {
-            return Err(Fault::new(at, format!("there are more than {MAX_OBJECTS} objects")));
+        let name_length = name.map_or(0, str::len);
+        let size = |o: &Object| std::mem::size_of::<Object>() + o.name.len() + name_length;
+        *placed += other.objects.iter().map(size).sum::<usize>();
+        *placed += other.lights.len() * std::mem::size_of::<Light>();
+        if *placed > MAX_PLACED {
+            return Err(Fault::new(at, format!("the instances would take more than {} MiB", MAX_PLACED >> 20)));
         }
         for object in &other.objects {
             let to_world = super::place::invertible(at, to_parent * object.to_world)?;

@@ -278,7 +278,8 @@ impl<T: Read> Read for OneOrMore<T> {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
         match node.get_ref() {
             DeValue::Array(_) => Vec::read(node).map(Self),
-            _ => T::read(node).map(|one| Self(vec![one])),
+            DeValue::Table(_) => T::read(node).map(|one| Self(vec![one])),
+            _ => Err(mismatch::<Self>(node)),
         }
     }
     fn absent() -> Option<Self> {

@@ -282,7 +282,7 @@ impl Mix {
         let sum: f64 = self.parts.value.iter().map(|p| f64::from(p.weight.0)).sum();
         // The written decimals are rounded, so that 0.7 + 0.2 + 0.1 may be an ulp above 1.
         if sum > 1.0 + 1e-6 {
-            return Err(Fault::new(&self.parts.at, format!("the weights sum to {sum}, expected at most 1")));
+            return Err(Fault::new(&self.parts.at, format!("the weights sum to {}, expected at most 1", sum as f32)));
         }
         let parts = self.parts.value.iter().map(|p| Ok((p.weight.0, b.model(&p.material)?)));
         Ok(Model::Mix(parts.collect::<Result<_, Fault>>()?))
