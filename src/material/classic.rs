@@ -2,7 +2,7 @@
 
 use super::param::{self, Point};
 use super::roughness::{Microsurface, RoughInterface};
-use crate::bsdf::{Fresnel, Lobe, Mirror, RoughReflection, SmoothDielectric, multiple_scattering};
+use crate::bsdf::{Fresnel, Lobe, Mirror, RoughReflection, SmoothDielectric};
 use crate::desc::{self, ColorParam};
 use crate::spectrum::Spectrum;
 
@@ -48,8 +48,7 @@ pub(super) struct Conductor {
 
 #[derive(Clone, Debug)]
 enum Reflectance {
-    /// With its mean over the hemisphere, an integral.
-    Fixed(Fresnel, Spectrum),
+    Fixed(Fresnel),
     Schlick(ColorParam),
 }
 
@@ -57,10 +56,7 @@ impl Conductor {
     pub(super) fn new(fresnel: &desc::Fresnel, roughness: desc::Roughness) -> Self {
         let lanes = |rgb: &[f32; 3]| Spectrum::from_rgb(*rgb).0;
         let reflectance = match fresnel {
-            desc::Fresnel::Complex { eta, k } => {
-                let fresnel = Fresnel::Complex { eta: lanes(eta), k: lanes(k) };
-                Reflectance::Fixed(fresnel, fresnel.average())
-            }
+            desc::Fresnel::Complex { eta, k } => Reflectance::Fixed(Fresnel::complex(lanes(eta), lanes(k))),
             desc::Fresnel::Schlick { f0 } => Reflectance::Schlick(*f0),
         };
         Self { reflectance, micro: Microsurface::new(roughness) }
@@ -68,7 +64,7 @@ impl Conductor {
 
     pub(super) fn is_constant(&self) -> bool {
         let colour = match &self.reflectance {
-            Reflectance::Fixed(..) => true,
+            Reflectance::Fixed(_) => true,
             Reflectance::Schlick(f0) => param::is_constant(f0),
         };
         colour && self.micro.is_constant()
@@ -76,19 +72,13 @@ impl Conductor {
 
     #[inline]
     pub(super) fn lobe(&self, at: Point) -> Lobe {
-        let (fresnel, average) = match &self.reflectance {
-            Reflectance::Fixed(fresnel, average) => (*fresnel, *average),
-            Reflectance::Schlick(f0) => {
-                let fresnel = Fresnel::schlick(param::share(f0, at), Spectrum::ONE);
-                (fresnel, fresnel.average())
-            }
+        let fresnel = match &self.reflectance {
+            Reflectance::Fixed(fresnel) => *fresnel,
+            Reflectance::Schlick(f0) => Fresnel::schlick(param::share(f0, at), Spectrum::ONE),
         };
         match self.micro.at(at) {
             None => Lobe::Mirror(Mirror { fresnel }),
-            Some(micro) => {
-                let f_ms = multiple_scattering(average, micro.energy().mean.loss);
-                Lobe::RoughReflection(RoughReflection::with(micro, fresnel, f_ms))
-            }
+            Some(micro) => Lobe::RoughReflection(RoughReflection::new(micro, fresnel)),
         }
     }
 }

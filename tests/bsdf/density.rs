@@ -10,7 +10,7 @@ use std::f64::consts::{PI, TAU};
 
 const N_COS: usize = 16;
 const N_PHI: usize = 16;
-const SAMPLES: u64 = 200_000;
+const SAMPLES: u64 = 100_000;
 
 /// Gauss–Legendre on [−1, 1], 5 nodes.
 const NODES: [(f64, f64); 5] = [

@@ -18,8 +18,7 @@ fn lossless_specimens_lose_nothing() {
     let mut family = Family::new("A5: lossless specimens, both sides");
     let all: Vec<_> = specimens().into_iter().filter(|s| s.lossless).collect();
     let cases: Vec<_> = all.iter().flat_map(|s| MUS.iter().flat_map(move |&mu| [mu, -mu].map(|z| (s, z)))).collect();
-    let moments: Vec<_> =
-        cases.par_iter().map(|(s, mu)| sampled_albedo(&s.bsdf, at_cosine(*mu), 0, 32, 1024)).collect();
+    let moments: Vec<_> = cases.par_iter().map(|(s, mu)| sampled_albedo(&s.bsdf, at_cosine(*mu), 0, 32, 512)).collect();
     for ((s, mu), m) in cases.iter().zip(moments) {
         family.rounded(format!("{} μ {mu}", s.name), 1.0, m.mean(), m.standard_error(), TABLES);
     }
@@ -37,7 +36,7 @@ fn white_conductors_vanish_at_every_roughness() {
         .par_iter()
         .map(|&(alpha, mu)| {
             let lobe = RoughReflection::new(Micro::new([alpha; 2]), Fresnel::ONE);
-            sampled_albedo(&Bsdf::single(Lobe::RoughReflection(lobe)), at_cosine(mu), 1, 32, 1024)
+            sampled_albedo(&Bsdf::single(Lobe::RoughReflection(lobe)), at_cosine(mu), 1, 32, 512)
         })
         .collect();
     for ((alpha, mu), m) in cases.iter().zip(moments) {
@@ -76,7 +75,7 @@ fn albedo_is_what_sampling_finds() {
     let mut family = Family::new("albedo() against sampling");
     for s in specimens() {
         // The albedo of metals comes from a fit of their Fresnel term.
-        let granted = if s.name.starts_with("gold") { 1e-2 } else { TABLES };
+        let granted = if s.name.starts_with("gold") { 3e-2 } else { TABLES };
         for mu in [0.95, 0.5, 0.1, -0.6, -0.05] {
             for lane in [0, 2] {
                 let m = sampled_albedo(&s.bsdf, at_cosine(mu), lane, 16, 1024);
@@ -100,7 +99,7 @@ fn the_ladder_of_estimators_agrees() {
         for mu in [0.9, 0.3, -0.5] {
             let wo = at_cosine(mu);
             let exact = f64::from(s.bsdf.albedo(wo).0[1]);
-            let granted = if s.name.starts_with("gold") { 1e-2 } else { TABLES };
+            let granted = if s.name.starts_with("gold") { 3e-2 } else { TABLES };
             let cases: [(&str, fn([f32; 2], f32) -> (radianza::glam::Vec3, f32)); 2] = [
                 ("uniform", |u, _| (warp::uniform_sphere(u), warp::UNIFORM_SPHERE_PDF)),
                 ("cosine", |u, uc| {
@@ -110,7 +109,7 @@ fn the_ladder_of_estimators_agrees() {
                 }),
             ];
             for (name, draw) in cases {
-                let m = replicates(3, 32, 8192, |uc, u| {
+                let m = replicates(3, 32, 4096, |uc, u| {
                     let (wi, pdf) = draw(u, uc);
                     if pdf == 0.0 {
                         return 0.0;
