@@ -14,12 +14,14 @@ pub enum Fresnel {
         /// Reflectance at grazing incidence.
         f90: Spectrum,
     },
-    /// Exact, for the index η − iκ per lane over the outside.
+    /// Exact; made by [`Fresnel::complex`].
     Complex {
-        /// Real part.
+        /// Real part of the index η − iκ per lane over the outside.
         eta: Vec4,
         /// Extinction κ.
         k: Vec4,
+        /// Cosine-weighted mean of the reflectance over the hemisphere.
+        average: Spectrum,
     },
 }
 
@@ -32,39 +34,43 @@ impl Fresnel {
         Self::Schlick { f0, f90 }
     }
 
+    /// Metal of index η − iκ per lane over the outside.
+    pub fn complex(eta: Vec4, k: Vec4) -> Self {
+        // Midpoint rule for 2 ∫ F μ dμ in s = √μ: its nodes crowd at the grazing angle, where metals rise.
+        const N: u32 = 256;
+        let node = |i: u32| (i as f32 + 0.5) / N as f32;
+        let term = |i| conductor(sqr(node(i)), eta, k) * (4.0 * node(i).powi(3) / N as f32);
+        Self::Complex { eta, k, average: (0..N).map(term).sum() }
+    }
+
     /// Reflectance at the angle of cosine `cos` ≥ 0.
     #[inline]
     pub fn eval(&self, cos: f32) -> Spectrum {
         match *self {
             Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, pow5(1.0 - cos)),
-            Self::Complex { eta, k } => conductor(cos, eta, k),
+            Self::Complex { eta, k, .. } => conductor(cos, eta, k),
         }
     }
 
     /// Cosine-weighted mean over the hemisphere, 2 ∫ F(μ) μ dμ.
+    #[inline]
     pub fn average(&self) -> Spectrum {
         match *self {
             Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, 1.0 / 21.0),
-            Self::Complex { .. } => {
-                // Midpoint rule in s = √μ: its nodes crowd at the grazing angle, where metals rise.
-                let n = 256;
-                let h = 1.0 / n as f32;
-                let node = |i: u32| (i as f32 + 0.5) * h;
-                (0..n).map(|i| self.eval(sqr(node(i))) * (4.0 * node(i).powi(3) * h)).sum()
-            }
+            Self::Complex { average, .. } => average,
         }
     }
 
-    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶, exact for Schlick and, for metals, at c = 0, 1/7
-    /// and 1 (Hoffman 2019, "Fresnel Equations Considered Harmful").
+    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶: exact for Schlick; for metals exact at normal and
+    /// grazing incidence and in the mean (the form of Hoffman 2019, "Fresnel Equations Considered Harmful").
+    #[inline]
     pub fn fit(&self) -> (Spectrum, Spectrum, Spectrum) {
         match *self {
             Self::Schlick { f0, f90 } => (f0, f90, Spectrum::ZERO),
-            Self::Complex { .. } => {
-                const C: f32 = 1.0 / 7.0;
-                let (f0, f90) = (self.eval(1.0), Spectrum::ONE);
-                let schlick = Spectrum::lerp(f0, f90, pow5(1.0 - C));
-                (f0, f90, (schlick - self.eval(C)) / (C * pow5(1.0 - C) * (1.0 - C)))
+            Self::Complex { average, .. } => {
+                let f0 = self.eval(1.0);
+                // The means of (1 − c)⁵ and c(1 − c)⁶ are 1/21 and 1/126.
+                (f0, Spectrum::ONE, (Spectrum::lerp(f0, Spectrum::ONE, 1.0 / 21.0) - average) * 126.0)
             }
         }
     }

@@ -4,7 +4,6 @@ use super::Transport;
 use super::energy::{EnergyTable, Interface, Slice};
 use super::fresnel::{dielectric, refract};
 use super::ggx::{Ggx, MIN_ALPHA, reflect};
-use super::lambert::sample_cosine;
 use super::smooth::refraction_scale;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -138,13 +137,13 @@ impl RoughDielectric {
             let single = f * 0.25 * self.ggx.d(h) * self.ggx.g2_over_cosines(o, i);
             let multiple = stays * FRAC_1_PI * e_o.loss * own.energy.at(i).loss / own.energy.mean.loss;
             let visible = f * 0.25 * self.ggx.visible_over_cosine(o, h);
-            let pdf = (1.0 - q) * visible + q * stays * i.z * FRAC_1_PI;
+            let pdf = (1.0 - q) * visible + q * stays * own.energy.pdf(i.z);
             return (Spectrum::splat(single + multiple), pdf);
         }
 
         let crosses = own.transmitted;
         let mut f = crosses * FRAC_1_PI * e_o.loss * other.energy.at(i).loss / other.energy.mean.loss;
-        let mut pdf = q * crosses * -i.z * FRAC_1_PI;
+        let mut pdf = q * crosses * other.energy.pdf(-i.z);
         // The normal that refracts o to i; there is none unless they are on opposite sides of it.
         let h = o + i * eta;
         let h = h * (1f32.copysign(h.z) / h.length().max(f32::MIN_POSITIVE));
@@ -163,13 +162,15 @@ impl RoughDielectric {
     /// Draws `wi`: the multiply scattered part, or reflection or refraction at a visible normal.
     #[inline]
     pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<Vec3> {
-        let (own, _, eta) = self.sides(wo);
+        let (own, other, eta) = self.sides(wo);
         let flip = Vec3::new(1.0, 1.0, 1f32.copysign(wo.z));
         let o = wo * flip;
         let q = own.energy.at(o).loss;
         if uc < q {
             let crosses = uc < q * own.transmitted;
-            return Some(sample_cosine(if crosses { -wo } else { wo }, u));
+            let (side, sign) = if crosses { (other, -wo.z) } else { (own, wo.z) };
+            let wi = side.energy.sample(u);
+            return Some(Vec3::new(wi.x, wi.y, wi.z.copysign(sign)));
         }
         let uc = (uc - q) / (1.0 - q);
         let m = self.ggx.sample_visible(o, u);

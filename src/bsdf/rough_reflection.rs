@@ -2,7 +2,6 @@
 
 use super::energy::{Energy, Slice};
 use super::ggx::{Ggx, reflect};
-use super::lambert::sample_cosine;
 use super::{Fresnel, Interface};
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -88,7 +87,7 @@ impl RoughReflection {
         (single.max(Spectrum::ZERO), self.f_ms * e.loss)
     }
 
-    /// Directional albedo; of metals by the fit of their Fresnel term (error below 0.01).
+    /// Directional albedo; of metals by the fit of their Fresnel term (a few per cent).
     pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
         let (single, multiple) = self.shares(self.micro.energy.at(wo));
         single + multiple
@@ -117,7 +116,7 @@ impl RoughReflection {
         let (f, f_ms) = if through { (Spectrum::ONE - f, Spectrum::ONE - f_ms) } else { (f, f_ms) };
         let single = f * (0.25 * ggx.d(h) * ggx.g2_over_cosines(wo, wi));
         let multiple = f_ms * (FRAC_1_PI * e_o.loss * e_i.loss / energy.mean.loss);
-        let pdf = (1.0 - q) * 0.25 * ggx.visible_over_cosine(wo, h) + q * wi.z * FRAC_1_PI;
+        let pdf = (1.0 - q) * 0.25 * ggx.visible_over_cosine(wo, h) + q * energy.pdf(wi.z);
         (single + multiple, pdf)
     }
 
@@ -130,7 +129,7 @@ impl RoughReflection {
         self.eval_above(above(wo), above(wi), false)
     }
 
-    /// Draws `wi`: a mirrored direction at a visible normal, or a cosine-distributed one.
+    /// Draws `wi`: a mirrored direction at a visible normal, or one of the multiply scattered part.
     #[inline]
     pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<Vec3> {
         self.sample_same_side(wo, uc, u, false)
@@ -141,7 +140,8 @@ impl RoughReflection {
         let o = above(wo);
         let q = self.multiple_probability(self.micro.energy.at(o), through);
         if uc < q {
-            return Some(sample_cosine(wo, u));
+            let wi = self.micro.energy.sample(u);
+            return Some(Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z)));
         }
         let wi = reflect(o, self.micro.ggx.sample_visible(o, u));
         (wi.z > 0.0).then(|| Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z)).normalize())

@@ -15,7 +15,9 @@ pub struct Specimen {
 }
 
 /// Gold at 630, 532 and 465 nm (Johnson & Christy 1972), green repeated.
-const GOLD: Fresnel = Fresnel::Complex { eta: Vec4::new(0.18, 0.54, 1.33, 0.54), k: Vec4::new(3.42, 2.23, 1.87, 2.23) };
+fn gold() -> Fresnel {
+    Fresnel::complex(Vec4::new(0.18, 0.54, 1.33, 0.54), Vec4::new(3.42, 2.23, 1.87, 2.23))
+}
 
 /// All lobes × parameters.
 pub fn specimens() -> Vec<Specimen> {
@@ -26,7 +28,7 @@ pub fn specimens() -> Vec<Specimen> {
     add("lambert".into(), false, Bsdf::single(Lobe::lambert(grey)));
     add("lambert white".into(), true, Bsdf::single(Lobe::lambert(Spectrum::ONE)));
     add("mirror".into(), true, Bsdf::single(Lobe::Mirror(Mirror { fresnel: Fresnel::ONE })));
-    add("smooth gold".into(), false, Bsdf::single(Lobe::Mirror(Mirror { fresnel: GOLD })));
+    add("smooth gold".into(), false, Bsdf::single(Lobe::Mirror(Mirror { fresnel: gold() })));
     for eta in [1.5, 1.0 / 1.33] {
         let lobe = Lobe::SmoothDielectric(SmoothDielectric { eta, tint: Spectrum::ONE });
         add(format!("smooth dielectric {eta:.3}"), true, Bsdf::single(lobe));
@@ -46,7 +48,7 @@ pub fn specimens() -> Vec<Specimen> {
         let micro = Micro::new(alpha);
         let white = RoughReflection::new(micro, Fresnel::ONE);
         add(format!("white conductor α {alpha:?}"), true, Bsdf::single(Lobe::RoughReflection(white)));
-        let gold = RoughReflection::new(micro, GOLD);
+        let gold = RoughReflection::new(micro, gold());
         add(format!("gold α {alpha:?}"), false, Bsdf::single(Lobe::RoughReflection(gold)));
     }
     for (alpha, eta) in [(0.02, 1.5), (0.1, 1.5), (0.4, 1.5), (1.0, 1.5), (0.3, 1.0 / 1.5), (0.2, 1.02), (0.3, 2.4)] {

@@ -56,7 +56,7 @@ impl Conductor {
     pub(super) fn new(fresnel: &desc::Fresnel, roughness: desc::Roughness) -> Self {
         let lanes = |rgb: &[f32; 3]| Spectrum::from_rgb(*rgb).0;
         let reflectance = match fresnel {
-            desc::Fresnel::Complex { eta, k } => Reflectance::Fixed(Fresnel::Complex { eta: lanes(eta), k: lanes(k) }),
+            desc::Fresnel::Complex { eta, k } => Reflectance::Fixed(Fresnel::complex(lanes(eta), lanes(k))),
             desc::Fresnel::Schlick { f0 } => Reflectance::Schlick(*f0),
         };
         Self { reflectance, micro: Microsurface::new(roughness) }

@@ -14,6 +14,7 @@
 mod grid;
 mod interface;
 mod quadrature;
+mod sampling;
 mod table;
 
 pub use interface::{Energy, Interface};

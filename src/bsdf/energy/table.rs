@@ -37,6 +37,9 @@ pub struct Slice {
     table: &'static EnergyTable,
     ggx: Ggx,
     row: Stencil,
+    /// The larger α, squared, and ln(1 + 1/α²).
+    pub(super) alpha2: f32,
+    pub(super) log: f32,
     /// Cosine-weighted means over the hemisphere.
     pub mean: Energy,
 }
@@ -49,7 +52,7 @@ impl Slice {
             return Self::isotropic(EnergyTable::isotropic(interface), ggx.ax);
         }
         let table = EnergyTable::memoised(interface, Some(ggx));
-        Self { table, ggx, row: Stencil::new(0.0, N_AZIMUTH), mean: unpack_mean(table.means[0]) }
+        Self::with(table, ggx, Stencil::new(0.0, N_AZIMUTH), unpack_mean(table.means[0]))
     }
 
     /// An isotropic table at this α.
@@ -57,7 +60,13 @@ impl Slice {
     pub fn isotropic(table: &'static EnergyTable, alpha: f32) -> Self {
         let t = log_alpha(alpha);
         let mean = unpack_mean(Stencil::new(t, N_MEANS).over(&table.means));
-        Self { table, ggx: Ggx { ax: alpha, ay: alpha }, row: Stencil::new(t, N_ALPHA), mean }
+        Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, N_ALPHA), mean)
+    }
+
+    #[inline]
+    fn with(table: &'static EnergyTable, ggx: Ggx, row: Stencil, mean: Energy) -> Self {
+        let alpha2 = sqr(ggx.ax.max(ggx.ay));
+        Self { table, ggx, row, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
     }
 
     /// Energy of the direction `w`, on either side.

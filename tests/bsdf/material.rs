@@ -1,0 +1,179 @@
+//! Materials as written, through to their lobes.
+
+use crate::{at_cosine, sampled_albedo};
+use radianza::bsdf::Transport;
+use radianza::desc::{self, Alpha, ColorParam, Emission, Fresnel, Model, NormalMap, Roughness, ScalarParam, Sides};
+use radianza::desc::{Image, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};
+use radianza::glam::{Affine2, Vec2, Vec3, Vec4};
+use radianza::material::Material;
+use radianza::shape::Surface;
+use radianza::stats::Family;
+use radianza::texture::Textures;
+
+const WHITE: ColorParam = ColorParam::constant([1.0; 3]);
+
+fn surface() -> Surface {
+    Surface {
+        p: Vec3::ZERO,
+        p_error: Vec3::ZERO,
+        ng: Vec3::Z,
+        ns: Vec3::Z,
+        tangent: Vec3::X,
+        handedness: 1.0,
+        uv: [Vec2::new(0.25, 0.5), Vec2::new(0.75, 0.5)],
+        color: Vec4::new(0.5, 1.0, 1.0, 0.5),
+    }
+}
+
+/// Two texels: left (1, 0, 0, 0.25), right (0.2, 1, 0.6, 1).
+fn textures() -> Textures {
+    let pixels = Pixels::Rgba32F(vec![[1.0, 0.0, 0.0, 0.25], [0.2, 1.0, 0.6, 1.0]]);
+    let image = Image { name: "two".into(), size: [2, 1], pixels };
+    let texture = Texture::Image { image: 0, srgb: false, wrap: [Wrap::Clamp; 2], nearest: true };
+    Textures::new(&desc::Scene { images: vec![image.into()], textures: vec![texture], ..Default::default() })
+}
+
+fn texture(uv_set: usize) -> TextureRef {
+    TextureRef { texture: 0, uv_set, transform: Affine2::IDENTITY }
+}
+
+fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
+    MetallicRoughness {
+        base_color: WHITE,
+        metallic: ScalarParam::constant(metallic),
+        roughness: ScalarParam::constant(roughness),
+        ior: 1.5,
+        specular: ScalarParam::constant(1.0),
+        specular_color: WHITE,
+        transmission: None,
+    }
+}
+
+fn compile(model: Model) -> Material {
+    Material::compile(&desc::Material::new("test", model))
+}
+
+#[test]
+fn white_gltf_neither_gains_nor_loses() {
+    let mut family = Family::new("glTF, base colour 1: albedo 1");
+    for (metallic, roughness) in [(0.0, 0.0), (0.0, 0.1), (0.0, 0.5), (0.0, 1.0), (0.5, 0.3), (1.0, 0.6), (1.0, 0.0)] {
+        for transmission in [None, Some((0.6, true)), Some((0.6, false))] {
+            let mut m = gltf(metallic, roughness);
+            m.transmission = transmission.map(|(t, thin)| Transmission { factor: ScalarParam::constant(t), thin });
+            let material = compile(Model::MetallicRoughness(Box::new(m)));
+            for mu in [0.9, 0.3, 0.05, -0.7] {
+                let bsdf = material.bsdf(&surface(), at_cosine(mu), &Textures::default());
+                let m = sampled_albedo(&bsdf, at_cosine(mu), 0, 16, 1024);
+                let name = format!("metallic {metallic} roughness {roughness} transmission {transmission:?} μ {mu}");
+                family.rounded(name, 1.0, m.mean(), m.standard_error(), 5e-4);
+            }
+        }
+    }
+    family.assert();
+}
+
+#[test]
+fn no_gltf_material_gains() {
+    for i in 0..200u32 {
+        let x = |k: u32| (i.wrapping_mul(2_654_435_761).wrapping_add(k * 40_503) >> 8) as f32 / (1u32 << 24) as f32;
+        let mut m = gltf(x(1), x(2));
+        m.base_color = ColorParam::constant([x(3), x(4), 1.0]);
+        m.ior = 1.0 + 2.0 * x(5);
+        m.specular = ScalarParam::constant(x(6));
+        m.specular_color = ColorParam::constant([4.0 * x(7), 1.0, 0.3]);
+        m.transmission = Some(Transmission { factor: ScalarParam::constant(x(8)), thin: true });
+        let material = compile(Model::MetallicRoughness(Box::new(m)));
+        for mu in [1.0, 0.5, 0.1, 0.01] {
+            let albedo = material.bsdf(&surface(), at_cosine(mu), &Textures::default()).albedo(at_cosine(mu));
+            assert!(albedo.0.max_element() <= 1.0 + 2e-4 && albedo.0.min_element() >= 0.0, "{i} μ {mu}: {albedo:?}");
+        }
+    }
+}
+
+#[test]
+fn parameters_come_from_textures_and_vertices() {
+    let textures = textures();
+    let reflectance = ColorParam { factor: [0.5, 0.5, 0.5], texture: Some(texture(1)), vertex_color: true };
+    let bsdf = compile(Model::Diffuse { reflectance }).bsdf(&surface(), Vec3::Z, &textures);
+    let albedo = bsdf.albedo(Vec3::Z).to_rgb();
+    for (a, b) in albedo.into_iter().zip([0.05, 0.5, 0.3]) {
+        assert!((a - b).abs() < 1e-6, "{albedo:?}");
+    }
+
+    // Roughness from green: 0 on the left (smooth), 1 on the right.
+    let roughness = |uv_set| Roughness::Perceptual(ScalarParam { factor: 1.0, texture: Some((texture(uv_set), 1)) });
+    for (uv_set, smooth) in [(0, false), (1, true)] {
+        let models = [
+            Model::Conductor { fresnel: Fresnel::Schlick { f0: WHITE }, roughness: roughness(uv_set) },
+            Model::Dielectric { ior: 1.5, roughness: roughness(uv_set), tint: WHITE },
+        ];
+        for model in models {
+            let bsdf = compile(model.clone()).bsdf(&surface(), Vec3::Z, &textures);
+            assert_eq!(bsdf.has_smooth(), smooth, "{model:?}");
+            let fixed = match model {
+                Model::Conductor { fresnel, .. } => {
+                    Model::Conductor { fresnel, roughness: Roughness::Alpha([uv_set as f32; 2]) }
+                }
+                Model::Dielectric { ior, tint, .. } => {
+                    Model::Dielectric { ior, tint, roughness: Roughness::Alpha([uv_set as f32; 2]) }
+                }
+                other => other,
+            };
+            let fixed = compile(fixed).bsdf(&surface(), Vec3::Z, &textures);
+            let f = |b: &radianza::bsdf::Bsdf| b.eval(at_cosine(0.7), at_cosine(0.4), Transport::Radiance).f;
+            assert_eq!(f(&bsdf), f(&fixed));
+        }
+    }
+}
+
+#[test]
+fn mixtures_are_sums() {
+    let half = |model| (0.5, model);
+    let grey = Model::Diffuse { reflectance: ColorParam::constant([0.4; 3]) };
+    let inner = Model::Mix(vec![half(grey), half(Model::Absorb)]);
+    let mixed = Model::Mix(vec![half(inner), half(Model::Mirror { reflectance: WHITE })]);
+    assert_eq!(radianza::material::most_lobes(&mixed), 2);
+    let bsdf = compile(mixed).bsdf(&surface(), Vec3::Z, &Textures::default());
+    assert!((bsdf.albedo(Vec3::Z).0.x - (0.25 * 0.4 + 0.5)).abs() < 1e-6);
+    assert!(compile(Model::Absorb).bsdf(&surface(), Vec3::Z, &Textures::default()).is_empty());
+}
+
+#[test]
+fn emission_and_coverage() {
+    let textures = textures();
+    let s = surface();
+    let mut m = desc::Material::new("test", Model::Absorb);
+    assert!(!Material::compile(&m).is_emissive() && !Material::compile(&m).has_holes());
+    m.emission = Some(Emission { radiance: ColorParam::constant([3.0, 2.0, 1.0]), sides: Sides::Front });
+    m.alpha = Alpha::Blend { coverage: ScalarParam { factor: 0.8, texture: Some((texture(0), 3)) } };
+    let blend = Material::compile(&m);
+    assert!(blend.is_emissive() && blend.has_holes());
+    assert_eq!(blend.emission(&s.uv, s.color, true, &textures).to_rgb(), [3.0, 2.0, 1.0]);
+    assert!(blend.emission(&s.uv, s.color, false, &textures).is_black());
+    // 0.8 × 0.25 × vertex alpha 0.5.
+    assert!((blend.coverage(&s.uv, s.color, &textures) - 0.1).abs() < 1e-6);
+    for (cutoff, there) in [(0.09, 1.0), (0.11, 0.0)] {
+        let coverage = ScalarParam { factor: 0.8, texture: Some((texture(0), 3)) };
+        m.alpha = Alpha::Mask { coverage, cutoff };
+        assert_eq!(Material::compile(&m).coverage(&s.uv, s.color, &textures), there);
+    }
+}
+
+#[test]
+fn normal_maps_stay_above_the_surface() {
+    let textures = textures();
+    let mut m = desc::Material::new("test", Model::Absorb);
+    assert!(Material::compile(&m).shading_normal(&surface(), &textures).is_none());
+    m.normal_map = Some(NormalMap { texture: texture(1), scale: 0.5 });
+    // (2 rgb − 1) × (0.5, 0.5, 1) of (0.2, 1, 0.6).
+    let expected = Vec3::new(-0.3, 0.5, 0.2).normalize();
+    let n = Material::compile(&m).shading_normal(&surface(), &textures).expect("there is a map");
+    assert!((n - expected).length() < 1e-6, "{n}");
+    let mirrored = Surface { handedness: -1.0, ..surface() };
+    let n = Material::compile(&m).shading_normal(&mirrored, &textures).expect("there is a map");
+    assert!((n - expected * Vec3::new(1.0, -1.0, 1.0)).length() < 1e-6, "{n}");
+    // The left texel points along (1, −1, −1).
+    m.normal_map = Some(NormalMap { texture: texture(0), scale: 1.0 });
+    let n = Material::compile(&m).shading_normal(&surface(), &textures).expect("there is a map");
+    assert!(n.z > 0.0 && n.x > 0.0 && n.y < 0.0 && (n.length() - 1.0).abs() < 1e-6, "{n}");
+}
