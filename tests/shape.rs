@@ -303,7 +303,8 @@ fn area_sampling_is_uniform() {
     let mut family = Family::new("area sampling of quadrics");
     let mut rng = Pcg64Mcg::new(11);
     let turn = |p: DVec2| (p.y.atan2(p.x) / std::f64::consts::TAU).rem_euclid(1.0);
-    let cases: [(&str, Quadric, &dyn Fn(DVec3) -> [f64; 2]); 3] = [
+    type EqualArea<'a> = &'a dyn Fn(DVec3) -> [f64; 2];
+    let cases: [(&str, Quadric, EqualArea); 3] = [
         ("sphere", Quadric::Sphere { radius: 3.0 }, &|p| [turn(p.truncate()), 0.5 + p.z / 6.0]),
         ("disk", Quadric::Disk { radius: 3.0 }, &|p| [turn(p.truncate()), p.truncate().length_squared() / 9.0]),
         ("cylinder", Quadric::Cylinder { radius: 3.0, height: 5.0 }, &|p| [turn(p.truncate()), p.z / 5.0]),

@@ -25,6 +25,8 @@ impl Lights {
     /// Lights of a scene within the sphere of this centre and radius. A light has probability 0 only where its radiance
     /// is 0 everywhere; the others share in proportion to the luminance of their flux, and a little evenly.
     pub fn new(lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
+        // A scene of one point, or of none, is still lit from infinity.
+        let radius = if radius.is_finite() { radius.clamp(1e-12, 1e15) } else { 1.0 };
         let means: Vec<OnceCell<Vec4>> = vec![OnceCell::new(); textures.len()];
         let mean = |texture: usize| *means[texture].get_or_init(|| textures.mean(texture));
         let powers: Vec<Spectrum> = lights.iter().map(|light| light.power(radius, &mean)).collect();

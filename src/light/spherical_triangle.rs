@@ -17,6 +17,8 @@ pub struct SphericalTriangle {
     a: DVec3,
     b: DVec3,
     c: DVec3,
+    /// |a·(b × c)|.
+    triple: f64,
     solid_angle: f64,
 }
 
@@ -30,8 +32,9 @@ impl SphericalTriangle {
         let o = reference.as_dvec3();
         // A corner at the reference point makes NaN, which fails the comparison below.
         let [a, b, c] = p.map(|p| (p.as_dvec3() - o).normalize());
-        let solid_angle = 2.0 * a.dot(b.cross(c)).abs().atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a));
-        (LEAST..GREATEST).contains(&solid_angle).then_some(Self { a, b, c, solid_angle })
+        let triple = a.dot(b.cross(c)).abs();
+        let solid_angle = 2.0 * triple.atan2(1.0 + a.dot(b) + b.dot(c) + c.dot(a));
+        (LEAST..GREATEST).contains(&solid_angle).then_some(Self { a, b, c, triple, solid_angle })
     }
 
     /// Solid angle \[sr\].
@@ -47,13 +50,13 @@ impl SphericalTriangle {
     /// theorems, so that the only angle evaluated is u₀Ω.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> DVec3 {
-        let Self { a, b, c, solid_angle } = *self;
+        let Self { a, b, c, triple, solid_angle } = *self;
         let [u0, u1] = u.map(f64::from);
 
         // α, the dihedral angle at a, and φ = u₀Ω − α.
         let (ab, ac) = (a.cross(b), a.cross(c));
         let norm = (ab.length_squared() * ac.length_squared()).sqrt();
-        let (sin_alpha, cos_alpha) = (a.dot(b.cross(c)).abs() / norm, ab.dot(ac) / norm);
+        let (sin_alpha, cos_alpha) = (triple / norm, ab.dot(ac) / norm);
         let (sin_area, cos_area) = (u0 * solid_angle).sin_cos();
         let s = sin_area * cos_alpha - cos_area * sin_alpha;
         let t = cos_area * cos_alpha + sin_area * sin_alpha;

@@ -14,9 +14,9 @@ use crate::warp::uniform_triangle;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 
 /// Reference points nearer than this many radii of the triangle (about its centroid) sample it by solid angle, farther
-/// ones by area: over 4 radii the density r²/(A cos θ) of area sampling varies little over the triangle, and costs a
-/// fifth of the time.
-const NEAR: f32 = 4.0;
+/// ones by area: from two radii above it cos θ/r² has a standard deviation of a tenth over the triangle, and area
+/// sampling takes a fifth of the time.
+const NEAR: f32 = 2.0;
 
 /// A triangle that emits.
 #[derive(Clone, Debug)]
@@ -125,8 +125,8 @@ impl TriangleLight {
         let [a, b, c] = self.p.map(|p| p.as_dvec3());
         let (e1, e2, s) = (b - a, c - a, reference.as_dvec3() - a);
         let (h, q) = (w.cross(e2), s.cross(e1));
-        let det = e1.dot(h);
-        let (u, v, t) = (s.dot(h) / det, w.dot(q) / det, e2.dot(q) / det);
+        let inverse = 1.0 / e1.dot(h);
+        let (u, v, t) = (s.dot(h) * inverse, w.dot(q) * inverse, e2.dot(q) * inverse);
         let u = u.clamp(0.0, 1.0);
         (t > 0.0 && t.is_finite()).then_some((u as f32, v.clamp(0.0, 1.0 - u) as f32, t as f32))
     }
