@@ -15,9 +15,13 @@ use std::path::PathBuf;
 /// Relative error that f32 arithmetic may leave on an estimate without variance.
 const ROUNDING: f64 = 2e-5;
 
-/// Samples per pixel where the scene says nothing, in replicates of this many.
+/// Samples per pixel where the scene says nothing.
 const SPP: u32 = 512;
-const REPLICATE: u32 = 16;
+
+/// Samples of a replicate: at least 32 replicates for Student's t, of at most 16 samples.
+fn replicate(spp: u32) -> u32 {
+    1 << (spp / 32).clamp(1, 16).ilog2()
+}
 
 fn scenes() -> Vec<PathBuf> {
     let mut found: Vec<PathBuf> = [repo("scenes"), repo("scenes/verify")]
@@ -60,8 +64,9 @@ fn check(name: &str, scene: &Scene, size: [u32; 2], expect: &Expect, family: &mu
                 let mut s = settings(size);
                 (s.integrator, s.strategy, s.sampler) = (integrator, strategy, sampler);
                 s.crop = region;
-                s.spp = expect.spp.unwrap_or(SPP).next_multiple_of(REPLICATE);
-                s.replicate = REPLICATE;
+                let spp = expect.spp.unwrap_or(SPP).max(32);
+                s.replicate = replicate(spp);
+                s.spp = spp.next_multiple_of(s.replicate);
                 s.max_depth = expect.max_depth;
                 s.transport = !expect.layers.is_empty();
                 s.seed = 7;
@@ -73,7 +78,7 @@ fn check(name: &str, scene: &Scene, size: [u32; 2], expect: &Expect, family: &mu
                         &film,
                         region,
                         exact,
-                        f64::from(s.spp / REPLICATE),
+                        f64::from(s.spp / s.replicate),
                         expect.tolerance,
                         &read,
                         family,

@@ -1,5 +1,5 @@
 //! Rendering small images in tests.
-#![allow(dead_code)]
+#![allow(dead_code, unreachable_pub)]
 
 use radianza::desc::{self, Filter, Integrator, SamplerKind, Strategy};
 use radianza::film::Film;
