@@ -6,7 +6,8 @@ use std::io::IsTerminal;
 use std::sync::Mutex;
 use std::time::Duration;
 
-/// Between two lines where stderr is no terminal.
+/// To the first line, and between two, where stderr is no terminal.
+const FIRST: Duration = Duration::from_secs(1);
 const INTERVAL: Duration = Duration::from_secs(5);
 
 /// Steps of the bar.
@@ -21,7 +22,7 @@ pub(super) struct Report {
 enum Sink {
     Silent,
     Bar(ProgressBar),
-    /// When the last line was printed, since the start.
+    /// When the next line is due, since the start.
     Lines(Mutex<Duration>),
 }
 
@@ -37,7 +38,7 @@ impl Report {
                 }
                 Sink::Bar(bar)
             }
-            false => Sink::Lines(Mutex::new(Duration::ZERO)),
+            false => Sink::Lines(Mutex::new(FIRST)),
         };
         Self { sink, limit }
     }
@@ -50,10 +51,10 @@ impl Report {
                 bar.set_position((self.fraction(progress) * STEPS as f64) as u64);
                 bar.set_message(self.line(progress));
             }
-            Sink::Lines(last) => {
-                let Ok(mut last) = last.try_lock() else { return };
-                if progress.elapsed >= *last + INTERVAL {
-                    *last = progress.elapsed;
+            Sink::Lines(due) => {
+                let Ok(mut due) = due.try_lock() else { return };
+                if progress.elapsed >= *due {
+                    *due = progress.elapsed + INTERVAL;
                     eprintln!("{:.1} %  {}", 100.0 * self.fraction(progress), self.line(progress));
                 }
             }

@@ -113,6 +113,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     // Render; know before that the result can be kept.
+    let stop = stop_on_signals();
     let [exr, png] = outputs(arguments);
     for path in [&exr, &png] {
         check_writable(path).map_err(|e| Failure::Output(path.clone(), e))?;
@@ -120,7 +121,6 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let compiled = Scene::compile(&scene)?;
     drop(scene);
     let report = Report::new(arguments.quiet, settings.time);
-    let stop = stop_on_signals();
     let output = render::render(&compiled, &settings, &stop, &|p| report.update(p))?;
     report.finish();
     name_bad_samples(&output);

@@ -1,8 +1,11 @@
 //! The binary from outside: arguments, exit codes, files, words.
 
+mod hostile;
+
 use assert_cmd::Command;
 use radianza::film::exr::{read_exr, write_exr};
 use radianza::film::{Header, Image};
+use std::io::BufRead;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -313,52 +316,23 @@ fn an_interrupt_leaves_a_valid_image() {
     let folder = folder();
     triangle(folder.path(), "tri.gltf", "");
     for signal in ["-INT", "-TERM"] {
-        let child = std::process::Command::new(assert_cmd::cargo::cargo_bin("radianza"))
+        let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin("radianza"))
             .current_dir(folder.path())
-            .args(["render", "tri.gltf", "--size", "32x32", "--spp", "1000000000", "-q", "-o", "new/a.exr"])
+            .args(["render", "tri.gltf", "--size", "32x32", "--spp", "1000000000", "-o", "new/a.exr"])
             .stderr(std::process::Stdio::piped())
             .spawn()
             .unwrap();
-        // Its folder appears just before the first pass.
-        while !folder.path().join("new").exists() {
-            std::thread::sleep(std::time::Duration::from_millis(10));
-        }
-        std::thread::sleep(std::time::Duration::from_millis(700));
+        // The first line of progress comes after the first pass.
+        let mut lines = std::io::BufReader::new(child.stderr.take().unwrap()).lines().map(Result::unwrap);
+        assert!(lines.any(|line| line.contains("Msamples/s")));
         let killed = std::process::Command::new("kill").args([signal, &child.id().to_string()]).status().unwrap();
         assert!(killed.success());
-        let output = child.wait_with_output().unwrap();
-        let err = String::from_utf8(output.stderr).unwrap();
-        assert_eq!(output.status.code(), Some(75), "{err}");
-        assert!(err.contains("interrupted after"), "{err}");
+        let rest: Vec<String> = lines.collect();
+        assert_eq!(child.wait().unwrap().code(), Some(75), "{rest:?}");
+        assert!(rest.iter().any(|line| line.contains("interrupted after")), "{rest:?}");
         let header = header(&folder.path().join("new/a.exr"));
         assert!(header.samples[1] > 0 && header.samples[1] < 1_000_000_000);
         assert!(header.samples[1].is_multiple_of(header.replicate.into()));
         std::fs::remove_dir_all(folder.path().join("new")).unwrap();
     }
-}
-
-#[test]
-fn hostile_gltf_ends_with_a_reason() {
-    let folder = folder();
-    triangle(folder.path(), "good.gltf", "");
-    let good = std::fs::read_to_string(folder.path().join("good.gltf")).unwrap();
-    let far = "AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA";
-    let cases = [
-        ("half.gltf", good[..good.len() / 2].to_string(), 3),
-        ("empty.gltf", String::new(), 3),
-        ("range.gltf", good.replace("\"count\": 3", "\"count\": 3000000000"), 3),
-        ("short.gltf", good.replace(far, "AACAvwAA"), 3),
-        ("node.gltf", good.replace("\"nodes\": [0, 1]", "\"nodes\": [0, 9]"), 3),
-        ("missing.gltf", good.replace("data:application/octet-stream;base64,", "gone/"), 4),
-        ("outside.gltf", good.replace("data:application/octet-stream;base64,", "../../"), 4),
-        ("required.gltf", good.replace("\"scene\": 0", "\"scene\": 0, \"extensionsRequired\": [\"X_magic\"]"), 5),
-        ("bin.glb", "glTF\u{2}\0\0\0\u{7f}\0\0\0".into(), 3),
-    ];
-    for (name, text, expected) in cases {
-        std::fs::write(folder.path().join(name), text).unwrap();
-        let (code, _, err) = radianza(folder.path(), &["render", name]);
-        assert_eq!(code, expected, "{name}: {err}");
-        assert!(err.contains(name), "{name}: {err}");
-    }
-    assert!(!folder.path().join("out").exists());
 }
