@@ -1,7 +1,7 @@
 //! Primitives as meshes.
 
 use super::{Reader, material, normals, tangents, triangles};
-use crate::desc::{Error, Mesh, Shape};
+use crate::desc::{Error, Mesh, Shape, TextureRef};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json;
 use json::mesh::{Mode, Semantic};
@@ -72,19 +72,19 @@ impl Reader<'_> {
             return Ok(None);
         }
 
+        // Find what the material needs of the mesh: UV for its textures, tangents for its normal map.
         let material = self.material(primitive.material.map(|m| m.value()), &format!("{place}/material"))?;
         for (set, used) in material::uv_sets(&self.scene.materials[material]).into_iter().enumerate() {
             if used && attributes[3 + set].is_none() {
-                self.notes.at(
-                    place,
-                    format!("the material looks textures up by TEXCOORD_{set}, which is missing: UV is (0, 0)"),
-                );
+                let note = format!("the material looks textures up by TEXCOORD_{set}, which is missing: UV is (0, 0)");
+                self.notes.at(place, note);
             }
         }
-        let map = self.scene.materials[material].normal_map.map(|map| map.texture);
         // The file's own tangents count only beside normals of its own.
         let lacks_tangents = attributes[1].is_none() || attributes[2].is_none();
+        let map = self.scene.materials[material].normal_map.map(|map| map.texture);
         let map = map.filter(|map| lacks_tangents && attributes[3 + map.uv_set].is_some());
+
         let ingredients = Ingredients {
             mode: mode.as_gl_enum(),
             indices: primitive.indices.map(|i| i.value()),
@@ -94,18 +94,7 @@ impl Reader<'_> {
         let shape = match self.geometry.get(&ingredients) {
             Some(shape) => *shape,
             None => {
-                let mut mesh = self.triangles(&ingredients, mode, place)?;
-                if let Some(map) = map.filter(|_| !mesh.indices.is_empty()) {
-                    let corner = size_of::<[Vec4; 16]>();
-                    self.budget.decode(self.source, place, 3 * mesh.indices.len(), corner)?;
-                    if !tangents::generate(&mut mesh, map.uv_set, map.transform) {
-                        self.notes.at(place, "a vertex with over a thousand triangles: tangents are made per triangle, not by MikkTSpace");
-                    }
-                }
-                let shape = (!mesh.indices.is_empty()).then(|| {
-                    self.scene.shapes.push(Shape::Mesh(mesh));
-                    self.scene.shapes.len() - 1
-                });
+                let shape = self.shape(&ingredients, mode, map, place)?;
                 self.geometry.insert(ingredients, shape);
                 shape
             }
@@ -114,6 +103,30 @@ impl Reader<'_> {
             self.notes.at(place, "primitives without a triangle are skipped");
         }
         Ok(shape.map(|shape| Part { shape, material }))
+    }
+
+    /// A new shape of these ingredients; `None` where no triangle is left. `map` is what tangents are missing for.
+    fn shape(
+        &mut self,
+        from: &Ingredients,
+        mode: Mode,
+        map: Option<TextureRef>,
+        place: &str,
+    ) -> Result<Option<usize>, Error> {
+        let mut mesh = self.triangles(from, mode, place)?;
+        if mesh.indices.is_empty() {
+            return Ok(None);
+        }
+        if let Some(map) = map {
+            // What MikkTSpace keeps for a corner, and the vertex that the corner may become.
+            self.budget.decode(self.source, place, 3 * mesh.indices.len(), 256)?;
+            if !tangents::generate(&mut mesh, map.uv_set, map.transform) {
+                let note = "a vertex with over a thousand triangles: tangents are made per triangle, not by MikkTSpace";
+                self.notes.at(place, note);
+            }
+        }
+        self.scene.shapes.push(Shape::Mesh(mesh));
+        Ok(Some(self.scene.shapes.len() - 1))
     }
 
     /// Vertices and triangles as the file has them, checked and repaired.

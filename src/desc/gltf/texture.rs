@@ -7,7 +7,6 @@ use gltf::json;
 use json::extensions::texture::TextureTransform;
 use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
-use std::sync::Arc;
 
 /// A use of a texture, whatever the kind of reference in the document.
 pub(super) struct Slot<'a> {
