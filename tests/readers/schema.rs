@@ -1,6 +1,7 @@
 //! The JSON Schema says what the reader does.
 
 use super::EVERYTHING;
+use radianza::desc::ErrorKind;
 use radianza::desc::toml::{parse, schema};
 use serde_json::Value as Json;
 use std::path::Path;
@@ -77,7 +78,11 @@ fn shipped_scenes_are_valid() {
                 folders.push(path);
             } else if path.extension().is_some_and(|e| e == "toml") {
                 let text = std::fs::read_to_string(&path).unwrap();
-                parse(&text, &path).unwrap_or_else(|e| panic!("{e}"));
+                match parse(&text, &path) {
+                    // Images that are written on demand need not be there.
+                    Err(e) if e.kind == ErrorKind::Missing => println!("{e}"),
+                    other => drop(other.unwrap_or_else(|e| panic!("{e}"))),
+                }
                 assert!(valid(&root, &root, &json(&text)), "{}", path.display());
             }
         }
