@@ -3,7 +3,7 @@
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
 use radianza::bvh::{Aabb, BoxBvh, Isa, TriangleBvh};
-use radianza::math::Ray;
+use radianza::math::{Ray, offset_origin};
 use radianza::sampler::{Kind, Sampler};
 use radianza::shape::intersect_triangle;
 use radianza::warp;
@@ -163,4 +163,33 @@ fn degenerate_triangles_are_never_hit_and_harm_nothing() {
         assert!(hit.t.is_finite() && hit.u.is_finite() && hit.v.is_finite());
     }
     assert!(TriangleBvh::build(&[], &[]).nearest(&Ray::new(Vec3::ZERO, Vec3::X)).is_none());
+}
+
+#[test]
+fn rays_that_leave_a_plane_through_zero_do_not_meet_it() {
+    // Where a plane has coordinate 0, the error of its points along the normal is 0 too, and rays start the least float
+    // above it; their first t is then far below the rounding of the triangle's other coordinates.
+    let quad = [[-0.1, 0.0, 0.1], [0.1, 0.0, 0.1], [0.1, 0.0, -0.1], [-0.1, 0.0, -0.1]].map(Vec3::from);
+    let indices = [[0, 1, 2], [0, 2, 3]];
+    for axis in 0..3 {
+        for scale in [1e-3, 1.0, 1e4] {
+            let turn = |v: Vec3| Vec3::from([0, 1, 2].map(|i| v[(i + axis) % 3]));
+            let positions = quad.map(|p| turn(p * scale));
+            for isa in [Isa::Portable, Isa::detect()] {
+                let bvh = TriangleBvh::build(&positions, &indices).with_isa(isa).unwrap();
+                for i in 0..20_000 {
+                    let mut u = Sampler::new(Kind::Independent, 3, [axis as u32, 0], i, 1);
+                    let [x, z] = u.next_2d().map(|u| (0.2 * u - 0.1) * scale * 0.999);
+                    let normal = turn(Vec3::Y);
+                    let d = warp::cosine_hemisphere(u.next_2d());
+                    let d = turn(Vec3::new(d.x, d.z, d.y));
+                    let o = offset_origin(turn(Vec3::new(x, 0.0, z)), Vec3::ZERO, normal, d);
+                    let found = (bvh.nearest(&Ray::new(o, d)), bvh.occluded(&Ray::new(o, d)));
+                    assert_eq!(found, (None, false), "axis {axis} scale {scale} {isa:?}: {o} {d}");
+                    let back = Ray::new(o + normal * (1e-3 * scale), -normal);
+                    assert!(bvh.nearest(&back).is_some() && bvh.occluded(&back), "{o}");
+                }
+            }
+        }
+    }
 }

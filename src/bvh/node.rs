@@ -1,5 +1,7 @@
 //! Memory layout of wide trees.
 
+use glam::DVec3;
+
 /// Lanes of a node and of a leaf.
 pub(super) const WIDTH: usize = 8;
 
@@ -48,4 +50,10 @@ pub(super) struct TriangleLeaf {
 
 impl TriangleLeaf {
     pub(super) const EMPTY: Self = Self { v: [[[0.0; WIDTH]; 3]; 3], id: [NONE; WIDTH] };
+
+    /// Vertices of the triangle of one lane.
+    #[inline]
+    pub(super) fn triangle(&self, lane: usize) -> [DVec3; 3] {
+        self.v.map(|axes| DVec3::from(axes.map(|lanes| f64::from(lanes[lane]))))
+    }
 }

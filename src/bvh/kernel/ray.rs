@@ -1,12 +1,13 @@
 //! A ray prepared for slabs and triangles.
 
 use crate::math::Ray;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A ray with what every box and triangle test of it shares.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::bvh) struct KernelRay {
     pub(in crate::bvh) o: [f32; 3],
+    pub(in crate::bvh) d: [f32; 3],
     pub(in crate::bvh) d_inv: [f32; 3],
     /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
     pub(in crate::bvh) near: [usize; 3],
@@ -28,11 +29,21 @@ impl KernelRay {
         let (kx, ky) = if d[kz] < 0.0 { (ky, kx) } else { (kx, ky) };
         Self {
             o: o.to_array(),
+            d: d.to_array(),
             d_inv: d_inv.to_array(),
             near: std::array::from_fn(|axis| 2 * axis + usize::from(d_inv[axis] < 0.0)),
             axes: [kx, ky, kz],
             shear: [d[kx] / d[kz], d[ky] / d[kz], 1.0 / d[kz]],
             t_max,
         }
+    }
+
+    /// n·(a − o)/(n·d) of the plane of a triangle, n = (b − a) × (c − a), in f64: NaN or infinite where the ray is
+    /// parallel to it.
+    #[inline]
+    pub(in crate::bvh) fn plane_distance(&self, [a, b, c]: [DVec3; 3]) -> f64 {
+        let [o, d] = [self.o, self.d].map(|v| DVec3::from(v.map(f64::from)));
+        let n = (b - a).cross(c - a);
+        n.dot(a - o) / n.dot(d)
     }
 }

@@ -10,6 +10,9 @@ macro_rules! kernels {
         /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
         const FAR: f32 = 1.0 + 4e-7;
 
+        /// How far t of f32 may be beyond its limit to be looked at in f64.
+        const ROUGH: f32 = 1.001;
+
         /// Lanes whose box the ray meets before `t_max`, and where it enters them.
         #[inline]
         $(#[$isa])?
@@ -70,7 +73,18 @@ macro_rules! kernels {
             }
             let det = u.add(v).add(w);
             let t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
-            let hits = candidates & zero.lt(t) & t.lt(Lanes::splat(t_max));
+            // The sheared z are as long as the triangle, and so is their rounding: of a ray that starts on a triangle's
+            // plane, or beside it, they do not tell the sign of t. The few that are left are decided in f64.
+            let mut near = candidates & t.lt(Lanes::splat(t_max * ROUGH));
+            let (mut hits, mut t) = (0, t.to_array());
+            while near != 0 {
+                let lane = near.trailing_zeros() as usize & 7;
+                near &= near - 1;
+                let exact = ray.plane_distance(leaf.triangle(lane));
+                t[lane] = exact as f32;
+                hits |= u32::from(exact > 0.0 && t[lane] < t_max) << lane;
+            }
+            let t = Lanes::load(&t);
             (hits, t, v.div(det), w.div(det))
         }
 
