@@ -46,7 +46,7 @@ impl Bsdf {
     /// a lobe of scale 0. A lobe with scale but without weight gets a little, so that none is ever missed.
     #[inline]
     pub fn push(&mut self, lobe: Lobe, scale: f32, weight: f32) -> bool {
-        if !(scale > 0.0) || self.entries.is_full() {
+        if scale.is_nan() || scale <= 0.0 || self.entries.is_full() {
             return false;
         }
         let weight = if weight > 1e-4 { weight } else { 1e-4 };

@@ -52,8 +52,8 @@ pub fn scalar(p: &ScalarParam, at: Point) -> f32 {
         None => 1.0,
         Some((t, channel)) => at.textures.lookup(t, at.uv).to_array()[(*channel).min(3)],
     };
-    // In this order NaN becomes 0.
-    (p.factor * texture).max(0.0).min(1.0)
+    // NaN becomes 0.
+    (p.factor * texture).max(0.0).clamp(0.0, 1.0)
 }
 
 /// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.

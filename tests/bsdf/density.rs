@@ -43,7 +43,7 @@ fn integrate(
     let parts = quarters.map(|(x, y)| rule(x, y));
     let sum: f64 = parts.iter().sum();
     let before = whole.unwrap_or_else(|| rule([x0, x1], [y0, y1]));
-    if depth >= 3 && ((sum - before).abs() < 1e-7 || depth > 9) {
+    if depth >= 2 && ((sum - before).abs() < 1e-6 || depth > 9) {
         return sum;
     }
     quarters.iter().zip(parts).map(|(&(x, y), part)| integrate(f, x, y, Some(part), depth + 1)).sum()

@@ -2,9 +2,8 @@
 
 use crate::{at_cosine, replicates};
 use radianza::bsdf::{Bsdf, Fresnel, Lobe, MAX_LOBES, Mirror, Pdf, SmoothDielectric, Transport, specimens};
-use radianza::sampler::{Kind, Sampler};
 use radianza::spectrum::Spectrum;
-use radianza::stats::{Family, Moments};
+use radianza::stats::Family;
 
 /// BRDF p_d ρ/π + p_s ρ mirror, chosen in unequal proportion.
 fn f3(p_d: f32, rho: f32) -> Bsdf {
@@ -21,14 +20,11 @@ fn lobes_split_the_energy() {
     for (p_d, rho) in [(0.7, 0.8), (0.2, 0.5)] {
         let bsdf = f3(p_d, rho);
         assert!((bsdf.delta_probability() - 0.4).abs() < 1e-6);
-        let moments = |diffuse: bool| -> Moments {
-            let share = |i| {
-                let mut s = Sampler::new(Kind::Independent, 9, [4, 4], i, 1);
-                let sample = bsdf.sample(at_cosine(0.4), s.next_1d(), s.next_2d(), Transport::Radiance);
-                let sample = sample.expect("neither lobe fails");
+        let moments = |diffuse: bool| {
+            replicates(9, 16, 8192, |uc, u| {
+                let sample = bsdf.sample(at_cosine(0.4), uc, u, Transport::Radiance).expect("neither lobe fails");
                 f64::from(if diffuse { (sample.weight - sample.specular).0.x } else { sample.specular.0.x })
-            };
-            (0..400_000).map(share).collect()
+            })
         };
         family.moments(format!("diffuse {p_d} ρ {rho}"), f64::from(p_d * rho), &moments(true));
         family.moments(format!("specular {p_d} ρ {rho}"), f64::from((1.0 - p_d) * rho), &moments(false));
