@@ -267,25 +267,24 @@ impl<'a> Tracer<'a> {
         for (x, y) in positions(area) {
             let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
-                let mut count = RayCount(0);
+                let (mut classes, mut rays) = (ByClass::default(), RayCount(0));
                 let mut sample = if self.settings.transport {
-                    let mut watch = (ByClass::default(), count);
-                    let mut sample = self.sample([x, y], index, &mut watch);
-                    sample.transport = watch.0.0;
-                    count = watch.1;
-                    sample
+                    self.sample([x, y], index, &mut (&mut classes, &mut rays))
                 } else {
-                    self.sample([x, y], index, &mut count)
+                    self.sample([x, y], index, &mut rays)
                 };
-                tile.rays += count.0;
+                tile.rays += rays.0;
                 // A sample that is no radiance is reported and counts as none.
                 let rgb = sample.radiance.to_rgb();
                 if !sample.radiance.is_finite() || rgb.iter().any(|&x| x < 0.0) {
                     tile.bad.push(BadSample { pixel: [x, y], index, rgb });
                     sample.radiance = Spectrum::ZERO;
-                    sample.transport = Default::default();
+                    classes = ByClass::default();
                 }
                 sums.add(&sample);
+                if self.settings.transport {
+                    sums.add_transport(&classes.0);
+                }
             }
             tile.samples += u64::from(self.settings.replicate);
             tile.pixels.push(sums);

@@ -27,7 +27,7 @@ fn agree(family: &mut Family, name: &str, a: &Film, b: &Film) {
 fn all_strategies_and_samplers_estimate_the_same_image() {
     let mut family = Family::new("X1: strategies × samplers against mis/sobol with another seed");
     for path in ["scenes/cornell-box.toml", "scenes/veach-mis.toml", "scenes/interior.toml"] {
-        let (scene, base) = small(path, 1024);
+        let (scene, base) = small(path, 512);
         let oracle = film(&scene, &Settings { seed: 99, ..base.clone() });
         for strategy in STRATEGIES {
             for sampler in SAMPLERS {

@@ -23,16 +23,22 @@ fn rng(seed: u128) -> Pcg64Mcg {
 fn sample(rng: &mut Pcg64Mcg) -> PixelSample {
     let rgb: [f32; 3] = [rng.random(), rng.random(), rng.random()];
     let hit = rng.random::<f32>() < 0.75;
-    let mut transport = [Spectrum::ZERO; 7];
-    transport[rng.random_range(0..7)] = Spectrum::from_rgb(rgb);
     PixelSample {
         radiance: Spectrum::from_rgb(rgb),
         alpha: f32::from(hit),
         albedo: if hit { Spectrum::splat(0.5) } else { Spectrum::ZERO },
         normal: if hit { Vec3::Z } else { Vec3::ZERO },
         depth: if hit { 2.0 } else { 0.0 },
-        transport,
     }
+}
+
+/// Adds a sample, and its radiance to some class.
+fn add(acc: &mut Accumulator, rng: &mut Pcg64Mcg) {
+    let sample = sample(rng);
+    let mut transport = [Spectrum::ZERO; 7];
+    transport[rng.random_range(0..7)] = sample.radiance;
+    acc.add(&sample);
+    acc.add_transport(&transport);
 }
 
 fn random_film(size: [u32; 2], crop: [u32; 4], replicates: u32, length: u32, transport: bool, seed: u128) -> Film {
@@ -41,7 +47,7 @@ fn random_film(size: [u32; 2], crop: [u32; 4], replicates: u32, length: u32, tra
     for [x, y] in film.pixels() {
         for _ in 0..replicates {
             let mut acc = Accumulator::default();
-            (0..length).for_each(|_| acc.add(&sample(&mut rng)));
+            (0..length).for_each(|_| add(&mut acc, &mut rng));
             film.add_replicate(x, y, &acc);
         }
     }

@@ -34,6 +34,13 @@ impl Bsdf {
         Self::default()
     }
 
+    /// Forgets all lobes.
+    #[inline]
+    pub fn clear(&mut self) {
+        self.entries.clear();
+        self.total = 0.0;
+    }
+
     /// One lobe.
     #[inline]
     pub fn single(lobe: Lobe) -> Self {

@@ -1,7 +1,5 @@
 //! Memory layout of wide trees.
 
-use glam::DVec3;
-
 /// Lanes of a node and of a leaf.
 pub(super) const WIDTH: usize = 8;
 
@@ -38,7 +36,7 @@ impl Node {
     };
 }
 
-/// Up to eight triangles; empty lanes are points at the origin, which no ray hits.
+/// Up to eight triangles; empty lanes are NaN, which no ray hits.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 pub(super) struct TriangleLeaf {
@@ -49,11 +47,5 @@ pub(super) struct TriangleLeaf {
 }
 
 impl TriangleLeaf {
-    pub(super) const EMPTY: Self = Self { v: [[[0.0; WIDTH]; 3]; 3], id: [NONE; WIDTH] };
-
-    /// Vertices of the triangle of one lane.
-    #[inline]
-    pub(super) fn triangle(&self, lane: usize) -> [DVec3; 3] {
-        self.v.map(|axes| DVec3::from(axes.map(|lanes| f64::from(lanes[lane]))))
-    }
+    pub(super) const EMPTY: Self = Self { v: [[[f32::NAN; WIDTH]; 3]; 3], id: [NONE; WIDTH] };
 }

@@ -46,6 +46,17 @@ pub struct Mesh {
     pub colors: Vec<Vec4>,
 }
 
+impl Mesh {
+    /// Its vertices carry more than their positions.
+    #[inline]
+    pub fn has_attributes(&self) -> bool {
+        !(self.normals.is_empty()
+            && self.tangents.is_empty()
+            && self.uv.iter().all(Vec::is_empty)
+            && self.colors.is_empty())
+    }
+}
+
 /// A shape placed in the world.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Object {

@@ -1,9 +1,11 @@
 //! Sums of one pixel over one replicate.
 
 use super::PixelSample;
+use crate::spectrum::Spectrum;
 use glam::DVec3;
 
-/// Names of the transport classes, in the order of [`PixelSample::transport`].
+/// Names of the transport classes, by the last two reflections before the eye, in the order of
+/// [`Accumulator::add_transport`]. SD: specular, then diffuse, then the eye: a caustic.
 pub const CLASSES: [&str; 7] = ["emission", "D", "S", "DD", "SD", "DS", "SS"];
 
 /// f64 sums of one pixel over one replicate: a run of consecutive sample indices that share one randomisation, which is
@@ -40,7 +42,12 @@ impl Accumulator {
         self.albedo += DVec3::from(s.albedo.to_rgb().map(f64::from));
         self.normal += s.normal.as_dvec3();
         self.depth += f64::from(s.depth);
-        for (sum, x) in self.transport.iter_mut().zip(&s.transport) {
+    }
+
+    /// Adds the radiance of one sample split by [`CLASSES`].
+    #[inline]
+    pub fn add_transport(&mut self, classes: &[Spectrum; 7]) {
+        for (sum, x) in self.transport.iter_mut().zip(classes) {
             *sum += DVec3::from(x.to_rgb().map(f64::from));
         }
     }

@@ -51,7 +51,4 @@ pub struct PixelSample {
     pub normal: Vec3,
     /// Distance from the camera to the first surface \[m\]; 0 where there is none.
     pub depth: f32,
-    /// `radiance` split by the classes of the last two reflections before the eye: emission, D, S, DD, SD, DS, SS
-    /// (SD: specular, then diffuse, then the eye: a caustic).
-    pub transport: [Spectrum; 7],
 }

@@ -3,6 +3,7 @@
 use super::{
     Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
 };
+use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -11,7 +12,7 @@ use crate::spectrum::Spectrum;
 
 /// L = Le + ∫ f Le |cos| dω.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
-    let mut sample = PixelSample::default();
+    let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
     let none = Classes::default();
     watch.ray();
     let Some(vertex) = method.scene.intersect(ray, &mut || sampler.next_1d()) else {
@@ -22,7 +23,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     };
     sample.radiance = emitted(method, &vertex, Drawn::Camera);
     watch.light(sample.radiance, &none);
-    let shading = method.scene.shade(&vertex);
+    let shading = method.scene.shade(&vertex, &mut scratch);
     watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
     first_surface(&mut sample, ray, &vertex, &shading);
     if method.max_depth > 0 {

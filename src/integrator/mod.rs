@@ -84,7 +84,7 @@ impl Observer for RayCount {
 }
 
 /// Two who watch together; the first hears of light, the second of rays.
-impl Observer for (ByClass, RayCount) {
+impl Observer for (&mut ByClass, &mut RayCount) {
     const CLASSES: bool = true;
     fn ray(&mut self) {
         self.1.ray();

@@ -3,6 +3,7 @@
 use super::{
     Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
 };
+use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -19,6 +20,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let (mut ray, mut drawn) = (*ray, Drawn::Camera);
     let (mut beta, mut eta_scale) = (Spectrum::ONE, 1.0);
     let mut classes = Classes::default();
+    let mut scratch = Bsdf::new();
 
     for depth in 0.. {
         watch.ray();
@@ -35,7 +37,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         sample.radiance += light;
         watch.light(light, &classes);
 
-        let shading = scene.shade(&vertex);
+        let shading = scene.shade(&vertex, &mut scratch);
         watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
         if depth == 0 {
             first_surface(&mut sample, &ray, &vertex, &shading);

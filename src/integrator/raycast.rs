@@ -2,6 +2,7 @@
 //! (glTF's unlit materials) emit it.
 
 use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface};
+use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -9,7 +10,7 @@ use crate::spectrum::Spectrum;
 
 /// L = Le.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
-    let mut sample = PixelSample::default();
+    let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
     watch.ray();
     match method.scene.intersect(ray, &mut || sampler.next_1d()) {
         None => {
@@ -18,7 +19,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         }
         Some(vertex) => {
             sample.radiance = emitted(method, &vertex, Drawn::Camera);
-            let shading = method.scene.shade(&vertex);
+            let shading = method.scene.shade(&vertex, &mut scratch);
             watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
             first_surface(&mut sample, ray, &vertex, &shading);
         }

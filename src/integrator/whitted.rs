@@ -3,7 +3,7 @@
 
 use super::local::reflected;
 use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface, strategy};
-use crate::bsdf::Transport;
+use crate::bsdf::{Bsdf, Transport};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -15,7 +15,7 @@ const FAINT: f32 = 0.05;
 /// L = Le + ∫ (f − f_perfect) Le |cos| dω + Σ_perfect k L.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let scene = method.scene;
-    let mut sample = PixelSample::default();
+    let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
     let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default())];
     while let Some((ray, drawn, beta, classes)) = branches.pop() {
         watch.ray();
@@ -30,7 +30,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let light = beta * emitted(method, &vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
-        let shading = scene.shade(&vertex);
+        let shading = scene.shade(&vertex, &mut scratch);
         watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
         if depth == 0 {
             first_surface(&mut sample, &ray, &vertex, &shading);

@@ -33,7 +33,7 @@ enum Scattering {
     /// Nothing.
     Absorb,
     /// One lobe, the same everywhere: the common case, without any work at a hit.
-    Single(Lobe),
+    Single(Box<Bsdf>),
     /// f = Σ weight · f_part.
     Sum(Vec<(f32, Part)>),
 }
@@ -90,29 +90,32 @@ impl Material {
         parts.sort_by(|a, b| b.0.total_cmp(&a.0));
         let scattering = match parts.as_slice() {
             [] => Scattering::Absorb,
-            [(1.0, Part::Fixed(lobes))] if matches!(lobes.as_slice(), [(_, 1.0)]) => Scattering::Single(lobes[0].0),
+            [(1.0, Part::Fixed(lobes))] if matches!(lobes.as_slice(), [(_, 1.0)]) => {
+                Scattering::Single(Box::new(Bsdf::single(lobes[0].0)))
+            }
             _ => Scattering::Sum(parts),
         };
         Self { scattering, emission: m.emission, normal_map: m.normal_map, alpha: m.alpha }
     }
 
-    /// Lobes at a hit. `wo`, in the local shading frame, decides how often each is chosen, and nothing else.
+    /// Lobes at a hit: the material's own, or those that vary over the surface, put into `scratch`. `wo`, in the local
+    /// shading frame, decides how often each is chosen, and nothing else.
     #[inline]
-    pub fn bsdf(&self, s: &Surface, wo: Vec3, textures: &Textures) -> Bsdf {
+    pub fn bsdf<'a>(&'a self, s: &Surface, wo: Vec3, textures: &Textures, scratch: &'a mut Bsdf) -> &'a Bsdf {
         match &self.scattering {
-            Scattering::Absorb => Bsdf::new(),
-            Scattering::Single(lobe) => Bsdf::single(*lobe),
+            Scattering::Single(bsdf) => return bsdf,
+            Scattering::Absorb => scratch.clear(),
             Scattering::Sum(parts) => {
                 let at = Point { uv: &s.uv, color: s.color, textures };
-                let mut bsdf = Bsdf::new();
+                scratch.clear();
                 for (weight, part) in parts {
                     part.lobes(at, |lobe, scale| {
-                        bsdf.push_by_albedo(lobe, weight * scale, wo);
+                        scratch.push_by_albedo(lobe, weight * scale, wo);
                     });
                 }
-                bsdf
             }
         }
+        scratch
     }
 
     /// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.

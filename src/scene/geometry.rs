@@ -3,7 +3,9 @@
 use crate::bvh::{Aabb, BoxBvh, TriangleBvh};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
-use crate::shape::{PlacedQuadric, Surface, TriangleAttributes, triangle_surface};
+use crate::shape::{
+    PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, triangle_surface, with_attributes,
+};
 use glam::{Mat3A, Vec3, Vec4};
 
 /// Whose a surface is.
@@ -24,6 +26,15 @@ pub struct Part {
     pub owner: Owner,
     /// The front is the side from which the vertices run clockwise.
     pub flip: bool,
+}
+
+/// Where a triangle of the world tree came from.
+#[derive(Clone, Copy, Debug)]
+struct Origin {
+    part: u32,
+    triangle: u32,
+    /// Normal of its front.
+    ng: Vec3,
 }
 
 /// A mesh that stands in several places, in object space.
@@ -68,8 +79,8 @@ const WORLD: u32 = u32::MAX;
 #[derive(Debug)]
 pub struct Geometry {
     parts: Vec<Part>,
-    /// Part and triangle in it, of every triangle of `world`.
-    origin: Vec<(u32, u32)>,
+    /// Of every triangle of `world`.
+    origin: Vec<Origin>,
     world: TriangleBvh,
     prototypes: Vec<Prototype>,
     instances: Vec<Instance>,
@@ -91,7 +102,10 @@ impl Geometry {
             let base = positions.len() as u32;
             positions.extend(&part.mesh.positions);
             indices.extend(part.mesh.indices.iter().map(|t| t.map(|i| i + base)));
-            origin.extend((0..part.mesh.indices.len()).map(|t| (p as u32, t as u32)));
+            origin.extend(part.mesh.indices.iter().enumerate().map(|(triangle, index)| {
+                let front = triangle_normal(index.map(|i| part.mesh.positions[i as usize])).unwrap_or(Vec3::Z);
+                Origin { part: p as u32, triangle: triangle as u32, ng: if part.flip { -front } else { front } }
+            }));
         }
         let world = TriangleBvh::build(&positions, &indices);
 
@@ -155,10 +169,16 @@ impl Geometry {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
         let [u, v] = hit.uv;
         if hit.object == WORLD {
-            let (part, triangle) = self.origin[hit.triangle as usize];
+            let Origin { part, triangle, ng } = self.origin[hit.triangle as usize];
             let part = &self.parts[part as usize];
+            let owner = part.owner.of_triangle(triangle);
+            let p = part.mesh.indices[triangle as usize].map(|i| part.mesh.positions[i as usize]);
+            let flat = flat_surface(p, u, v, ng);
+            if !part.mesh.has_attributes() {
+                return (flat, owner);
+            }
             let (p, attributes) = corners(&part.mesh, triangle);
-            return (triangle_surface(p, u, v, &attributes, part.flip), part.owner.of_triangle(triangle));
+            return (with_attributes(flat, p, u, v, &attributes, part.flip), owner);
         }
         match self.instances.get(hit.object as usize) {
             Some(instance) => {

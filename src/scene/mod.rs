@@ -9,6 +9,7 @@ pub use geometry::{Geometry, Hit};
 pub use info::Info;
 pub use shading::Shading;
 
+use crate::bsdf::Bsdf;
 use crate::desc;
 use crate::light::{LightSample, Lights};
 use crate::material::Material;
@@ -97,10 +98,10 @@ impl Scene {
         share
     }
 
-    /// Frame, lobes and local `wo` at a vertex.
+    /// Frame, lobes and local `wo` at a vertex; `scratch` holds lobes that vary over the surface.
     #[inline]
-    pub fn shade(&self, vertex: &Vertex) -> Shading {
-        Shading::new(&self.materials[vertex.material as usize], vertex, &self.textures)
+    pub fn shade<'a>(&'a self, vertex: &Vertex, scratch: &'a mut Bsdf) -> Shading<'a> {
+        Shading::new(&self.materials[vertex.material as usize], vertex, &self.textures, scratch)
     }
 
     /// Le towards where the ray came from.
@@ -118,7 +119,7 @@ impl Scene {
     #[inline]
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let (surface, owner) = self.geometry.surface(ray, hit);
-        let wo = -ray.d.normalize();
+        let wo = -ray.d;
         let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
         Vertex { surface, wo, material: owner.material, light, front: wo.dot(surface.ng) > 0.0 }
     }

@@ -8,26 +8,26 @@ use crate::texture::Textures;
 use glam::Vec3;
 
 /// What scatters at a vertex. The frame's z is the shading normal on the front side.
-#[derive(Clone, Debug)]
-pub struct Shading {
+#[derive(Clone, Copy, Debug)]
+pub struct Shading<'a> {
     /// Shading frame.
     pub frame: Frame,
     /// Towards where the ray came from, local.
     pub wo: Vec3,
     /// The lobes.
-    pub bsdf: Bsdf,
+    pub bsdf: &'a Bsdf,
 }
 
-impl Shading {
-    /// Evaluates the material.
+impl<'a> Shading<'a> {
+    /// Evaluates the material; lobes that vary over the surface are put into `scratch`.
     #[inline]
-    pub fn new(material: &Material, vertex: &Vertex, textures: &Textures) -> Self {
+    pub fn new(material: &'a Material, vertex: &Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
         let s = &vertex.surface;
         let ns = material.shading_normal(s, textures).unwrap_or(s.ns);
         let ns = facing(ns, vertex.wo, vertex.front);
         let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
         let wo = frame.to_local(vertex.wo);
-        Self { frame, wo, bsdf: material.bsdf(s, wo, textures) }
+        Self { frame, wo, bsdf: material.bsdf(s, wo, textures, scratch) }
     }
 
     /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the

@@ -10,7 +10,8 @@ mod triangle;
 pub use placed::PlacedQuadric;
 pub use quadric::{Quadric, QuadricPoint};
 pub use triangle::{
-    TriangleAttributes, TriangleHit, interpolate, intersect_triangle, triangle_area, triangle_normal, triangle_surface,
+    TriangleAttributes, TriangleHit, flat_surface, interpolate, intersect_triangle, triangle_area, triangle_normal,
+    triangle_surface, with_attributes,
 };
 
 use crate::math::{Transform, gamma};

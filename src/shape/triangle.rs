@@ -57,12 +57,38 @@ pub fn triangle_area([a, b, c]: [Vec3; 3]) -> f32 {
 /// The error of the interpolated point is bounded by γ₇ Σ |bᵢ pᵢ| (PBRT 4th ed., section 6.8.4), and by γ₂ |p₀| more
 /// because the weight of the first vertex is the difference 1 − u − v.
 pub fn triangle_surface(p: [Vec3; 3], u: f32, v: f32, attributes: &TriangleAttributes, flip: bool) -> Surface {
-    let b = [1.0 - u - v, u, v];
-    let extent = (p[0] * b[0]).abs() + (p[1] * b[1]).abs() + (p[2] * b[2]).abs();
-
-    // Geometric normal; a degenerate triangle, which no ray should meet, gets any.
+    // A degenerate triangle, which no ray should meet, gets any normal.
     let front = triangle_normal(p).unwrap_or(Vec3::Z);
-    let ng = if flip { -front } else { front };
+    let flat = flat_surface(p, u, v, if flip { -front } else { front });
+    with_attributes(flat, p, u, v, attributes, flip)
+}
+
+/// [`triangle_surface`] of a triangle that carries nothing but its positions, with the normal `ng` of its front.
+#[inline]
+pub fn flat_surface(p: [Vec3; 3], u: f32, v: f32, ng: Vec3) -> Surface {
+    let [a, b, c] = [p[0] * (1.0 - u - v), p[1] * u, p[2] * v];
+    Surface {
+        p: a + b + c,
+        p_error: (a.abs() + b.abs() + c.abs()) * gamma(7) + p[0].abs() * gamma(2),
+        ng,
+        ns: ng,
+        tangent: Vec3::ZERO,
+        handedness: 1.0,
+        uv: [Vec2::ZERO; 2],
+        color: Vec4::ONE,
+    }
+}
+
+/// A flat surface with what its triangle's vertices carry.
+pub fn with_attributes(
+    flat: Surface,
+    p: [Vec3; 3],
+    u: f32,
+    v: f32,
+    attributes: &TriangleAttributes,
+    flip: bool,
+) -> Surface {
+    let ng = flat.ng;
 
     // Shading normal, in the hemisphere of ng.
     let ns = attributes.normals.and_then(|n| interpolate(n, u, v).try_normalize()).unwrap_or(ng);
@@ -80,14 +106,12 @@ pub fn triangle_surface(p: [Vec3; 3], u: f32, v: f32, attributes: &TriangleAttri
     };
 
     Surface {
-        p: interpolate(p, u, v),
-        p_error: extent * gamma(7) + p[0].abs() * gamma(2),
-        ng,
         ns,
         tangent,
         handedness,
         uv: attributes.uv.map(|set| set.map_or(Vec2::ZERO, |uv| interpolate(uv, u, v))),
         color: attributes.colors.map_or(Vec4::ONE, |colors| interpolate(colors, u, v)),
+        ..flat
     }
 }
 

@@ -1,7 +1,7 @@
 //! Materials as written, through to their lobes.
 
 use crate::{at_cosine, sampled_albedo};
-use radianza::bsdf::Transport;
+use radianza::bsdf::{Bsdf, Transport};
 use radianza::desc::{self, Alpha, ColorParam, Emission, Fresnel, Model, NormalMap, Roughness, ScalarParam, Sides};
 use radianza::desc::{Image, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};
 use radianza::glam::{Affine2, Vec2, Vec3, Vec4};
@@ -62,7 +62,7 @@ fn white_gltf_neither_gains_nor_loses() {
             m.transmission = transmission.map(|(t, thin)| Transmission { factor: ScalarParam::constant(t), thin });
             let material = compile(Model::MetallicRoughness(Box::new(m)));
             for mu in [0.9, 0.3, 0.05, -0.7] {
-                let bsdf = material.bsdf(&surface(), at_cosine(mu), &Textures::default());
+                let bsdf = material.bsdf(&surface(), at_cosine(mu), &Textures::default(), &mut Bsdf::new()).clone();
                 let m = sampled_albedo(&bsdf, at_cosine(mu), 0, 16, 1024);
                 let name = format!("metallic {metallic} roughness {roughness} transmission {transmission:?} μ {mu}");
                 family.rounded(name, 1.0, m.mean(), m.standard_error(), 5e-4);
@@ -84,7 +84,10 @@ fn no_gltf_material_gains() {
         m.transmission = Some(Transmission { factor: ScalarParam::constant(x(8)), thin: true });
         let material = compile(Model::MetallicRoughness(Box::new(m)));
         for mu in [1.0, 0.5, 0.1, 0.01] {
-            let albedo = material.bsdf(&surface(), at_cosine(mu), &Textures::default()).albedo(at_cosine(mu));
+            let albedo = material
+                .bsdf(&surface(), at_cosine(mu), &Textures::default(), &mut Bsdf::new())
+                .clone()
+                .albedo(at_cosine(mu));
             assert!(albedo.0.max_element() <= 1.0 + 2e-4 && albedo.0.min_element() >= 0.0, "{i} μ {mu}: {albedo:?}");
         }
     }
@@ -94,7 +97,7 @@ fn no_gltf_material_gains() {
 fn parameters_come_from_textures_and_vertices() {
     let textures = textures();
     let reflectance = ColorParam { factor: [0.5, 0.5, 0.5], texture: Some(texture(1)), vertex_color: true };
-    let bsdf = compile(Model::Diffuse { reflectance }).bsdf(&surface(), Vec3::Z, &textures);
+    let bsdf = compile(Model::Diffuse { reflectance }).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
     let albedo = bsdf.albedo(Vec3::Z).to_rgb();
     for (a, b) in albedo.into_iter().zip([0.05, 0.5, 0.3]) {
         assert!((a - b).abs() < 1e-6, "{albedo:?}");
@@ -108,7 +111,7 @@ fn parameters_come_from_textures_and_vertices() {
             Model::Dielectric { ior: 1.5, roughness: roughness(uv_set), tint: WHITE },
         ];
         for model in models {
-            let bsdf = compile(model.clone()).bsdf(&surface(), Vec3::Z, &textures);
+            let bsdf = compile(model.clone()).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
             assert_eq!(bsdf.has_smooth(), smooth, "{model:?}");
             let fixed = match model {
                 Model::Conductor { fresnel, .. } => {
@@ -119,7 +122,7 @@ fn parameters_come_from_textures_and_vertices() {
                 }
                 other => other,
             };
-            let fixed = compile(fixed).bsdf(&surface(), Vec3::Z, &textures);
+            let fixed = compile(fixed).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
             let f = |b: &radianza::bsdf::Bsdf| b.eval(at_cosine(0.7), at_cosine(0.4), Transport::Radiance).f;
             assert_eq!(f(&bsdf), f(&fixed));
         }
@@ -133,9 +136,11 @@ fn mixtures_are_sums() {
     let inner = Model::Mix(vec![half(grey), half(Model::Absorb)]);
     let mixed = Model::Mix(vec![half(inner), half(Model::Mirror { reflectance: WHITE })]);
     assert_eq!(radianza::material::most_lobes(&mixed), 2);
-    let bsdf = compile(mixed).bsdf(&surface(), Vec3::Z, &Textures::default());
+    let bsdf = compile(mixed).bsdf(&surface(), Vec3::Z, &Textures::default(), &mut Bsdf::new()).clone();
     assert!((bsdf.albedo(Vec3::Z).0.x - (0.25 * 0.4 + 0.5)).abs() < 1e-6);
-    assert!(compile(Model::Absorb).bsdf(&surface(), Vec3::Z, &Textures::default()).is_empty());
+    assert!(
+        compile(Model::Absorb).bsdf(&surface(), Vec3::Z, &Textures::default(), &mut Bsdf::new()).clone().is_empty()
+    );
 }
 
 #[test]

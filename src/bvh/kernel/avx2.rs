@@ -49,6 +49,12 @@ impl Lanes {
         out
     }
 
+    #[inline]
+    #[target_feature(enable = "avx2")]
+    fn abs(self) -> Self {
+        Self(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0))
+    }
+
     lanewise! {
         add: _mm256_add_ps;
         sub: _mm256_sub_ps;

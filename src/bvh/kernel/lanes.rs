@@ -39,6 +39,11 @@ impl Lanes {
         self.0
     }
 
+    #[inline(always)]
+    pub(super) fn abs(self) -> Self {
+        Self(self.0.map(f32::abs))
+    }
+
     lanewise! {
         add: |a, b| a + b;
         sub: |a, b| a - b;

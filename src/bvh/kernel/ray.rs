@@ -1,5 +1,6 @@
 //! A ray prepared for slabs and triangles.
 
+use crate::bvh::node::TriangleLeaf;
 use crate::math::Ray;
 use glam::{DVec3, Vec3};
 
@@ -38,12 +39,17 @@ impl KernelRay {
         }
     }
 
-    /// n·(a − o)/(n·d) of the plane of a triangle, n = (b − a) × (c − a), in f64: NaN or infinite where the ray is
-    /// parallel to it.
+    /// n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64: NaN or infinite where the ray
+    /// is parallel to it.
     #[inline]
-    pub(in crate::bvh) fn plane_distance(&self, [a, b, c]: [DVec3; 3]) -> f64 {
-        let [o, d] = [self.o, self.d].map(|v| DVec3::from(v.map(f64::from)));
-        let n = (b - a).cross(c - a);
-        n.dot(a - o) / n.dot(d)
+    pub(in crate::bvh) fn plane_distance(&self, leaf: &TriangleLeaf, lane: usize) -> f64 {
+        let vertex = |i: usize| {
+            let [x, y, z] = &leaf.v[i];
+            DVec3::new(x[lane].into(), y[lane].into(), z[lane].into())
+        };
+        let double = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
+        let a = vertex(0);
+        let n = (vertex(1) - a).cross(vertex(2) - a);
+        n.dot(a - double(self.o)) / n.dot(double(self.d))
     }
 }

@@ -10,8 +10,21 @@ macro_rules! kernels {
         /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
         const FAR: f32 = 1.0 + 4e-7;
 
-        /// How far t of f32 may be beyond its limit to be looked at in f64.
-        const ROUGH: f32 = 1.001;
+        /// γ₂, γ₃ and γ₅ (`math::gamma`).
+        const G2: Factor = Factor(crate::math::gamma(2));
+        const G3: Factor = Factor(crate::math::gamma(3));
+        const G5: Factor = Factor(crate::math::gamma(5));
+
+        /// A constant of all lanes.
+        struct Factor(f32);
+
+        impl Factor {
+            #[inline]
+            $(#[$isa])?
+            fn times(&self, x: Lanes) -> Lanes {
+                Lanes::splat(self.0).mul(x)
+            }
+        }
 
         /// Lanes whose box the ray meets before `t_max`, and where it enters them.
         #[inline]
@@ -40,7 +53,7 @@ macro_rules! kernels {
         fn triangles(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, Lanes, Lanes, Lanes) {
             let [kx, ky, kz] = ray.axes;
             let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
-            let [sx, sy, sz] = ray.shear.map(|s| s);
+            let [sx, sy, sz] = ray.shear;
             let (sx, sy, sz) = (Lanes::splat(sx), Lanes::splat(sy), Lanes::splat(sz));
             let (ox, oy, oz) = (Lanes::splat(ray.o[kx]), Lanes::splat(ray.o[ky]), Lanes::splat(ray.o[kz]));
             let vertex = |i: usize| {
@@ -72,19 +85,34 @@ macro_rules! kernels {
                 return (0, zero, zero, zero);
             }
             let det = u.add(v).add(w);
-            let t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
-            // The sheared z are as long as the triangle, and so is their rounding: of a ray that starts on a triangle's
-            // plane, or beside it, they do not tell the sign of t. The few that are left are decided in f64.
-            let mut near = candidates & t.lt(Lanes::splat(t_max * ROUGH));
-            let (mut hits, mut t) = (0, t.to_array());
-            while near != 0 {
-                let lane = near.trailing_zeros() as usize & 7;
-                near &= near - 1;
-                let exact = ray.plane_distance(leaf.triangle(lane));
-                t[lane] = exact as f32;
-                hits |= u32::from(exact > 0.0 && t[lane] < t_max) << lane;
+            let mut t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
+
+            // Error bound of t (PBRT 4th ed., section 6.8.7): it grows with the triangle's extent in the sheared space.
+            // Within it, f32 does not tell on which side of the origin, or of the ray's end, a triangle is: f64 does.
+            let largest = |a: Lanes, b: Lanes, c: Lanes| a.abs().max(b.abs()).max(c.abs());
+            let (mx, my, mz) = (largest(ax, bx, cx), largest(ay, by, cy), largest(az, bz, cz));
+            let me = largest(u, v, w);
+            let (dx, dy, dz) = (G5.times(mx.add(mz)), G5.times(my.add(mz)), G3.times(mz));
+            let de = G2.times(mx.mul(my)).add(dy.mul(mx)).add(dx.mul(my));
+            let de = de.add(de);
+            let dt = G3.times(me.mul(mz)).add(de.mul(mz)).add(dz.mul(me)).div(det.abs());
+            let dt = dt.add(dt).add(dt);
+            let end = Lanes::splat(t_max);
+            let possible = candidates & !t.lt(zero.sub(dt)) & !end.lt(t.sub(dt));
+            let certain = possible & dt.lt(t) & t.lt(end.sub(dt));
+            let mut hits = certain;
+            let mut doubtful = possible & !certain;
+            if doubtful != 0 {
+                let mut exact = t.to_array();
+                while doubtful != 0 {
+                    let lane = doubtful.trailing_zeros() as usize & 7;
+                    doubtful &= doubtful - 1;
+                    let t = ray.plane_distance(leaf, lane);
+                    exact[lane] = t as f32;
+                    hits |= u32::from(t > 0.0 && exact[lane] < t_max) << lane;
+                }
+                t = Lanes::load(&exact);
             }
-            let t = Lanes::load(&t);
             (hits, t, v.div(det), w.div(det))
         }
 
