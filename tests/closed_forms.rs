@@ -35,8 +35,11 @@ fn scenes() -> Vec<PathBuf> {
     found
 }
 
-/// One pixel or region quantity: name, exact RGB, and how to read it off the film.
-type Quantity<'a> = (String, [f64; 3], Box<dyn Fn(&Film, u32, u32) -> ([f64; 3], [f64; 3]) + 'a>);
+/// Mean and standard error of a pixel, RGB.
+type Read<'a> = dyn Fn(&Film, u32, u32) -> ([f64; 3], [f64; 3]) + 'a;
+
+/// One quantity: name, exact RGB, and how to read it off the film.
+type Quantity<'a> = (String, [f64; 3], Box<Read<'a>>);
 
 fn quantities(expect: &Expect) -> Vec<Quantity<'_>> {
     let mut list: Vec<Quantity> = Vec::new();
@@ -97,7 +100,7 @@ fn compare(
     exact: [f64; 3],
     replicates: f64,
     tolerance: f64,
-    read: &dyn Fn(&Film, u32, u32) -> ([f64; 3], [f64; 3]),
+    read: &Read,
     family: &mut Family,
 ) {
     let t = StudentsT::new(0.0, 1.0, replicates - 1.0).expect("several replicates");

@@ -1,7 +1,7 @@
 //! Bounding volume hierarchies behind two questions: what is the nearest hit, and is anything in the way?
 //!
-//! obvhs builds a binary tree; [`build`] collapses it to eight children a node by the surface area heuristic; the
-//! kernels in [`kernel`] walk it with eight lanes at a time. [`TriangleBvh`] holds triangles and answers in any
+//! obvhs builds a binary tree; `build.rs` collapses it to eight children a node by the surface area heuristic; the
+//! kernels in `kernel/` walk it with eight lanes at a time. [`TriangleBvh`] holds triangles and answers in any
 //! space; [`BoxBvh`] holds whatever has a box (instances, quadrics) and asks a closure at its leaves.
 
 mod boxes;

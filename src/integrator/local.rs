@@ -53,14 +53,14 @@ pub(super) fn reflected<O: Observer>(
     let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
 
     // By light.
-    if sees_lights(&shading.bsdf, scene) {
+    if sees_lights(shading.bsdf, scene) {
         let (all, specular) = direct_light(method, vertex, shading, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }
 
     // By direction, as far as the first surface.
-    let Some(next) = strategy::sample(method, &shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { return sum };
+    let Some(next) = strategy::sample(method, shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { return sum };
     let Some(ray) = shading.leave(vertex, next.wi) else { return sum };
     let drawn = Drawn::new(next.pdf, vertex.surface.p);
     if !keep(drawn) {

@@ -49,7 +49,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
 
         // ∫ by light
-        if sees_lights(&shading.bsdf, scene) {
+        if sees_lights(shading.bsdf, scene) {
             let (all, specular) = direct_light(method, &vertex, &shading, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
@@ -59,7 +59,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         }
 
         // ∫ by BSDF
-        let Some(next) = strategy::sample(method, &shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { break };
+        let Some(next) = strategy::sample(method, shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { break };
         let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
