@@ -69,6 +69,12 @@ impl Camera {
         }
     }
 
+    /// Whether [`ray`](Self::ray) looks at its `lens`.
+    #[inline]
+    pub fn has_lens(&self) -> bool {
+        matches!(self.kind, Kind::ThinLens { .. })
+    }
+
     /// The ray through the film point `film` \[px\], of unit direction; `lens` in [0, 1)² chooses the point of the
     /// aperture where there is one.
     #[inline]

@@ -297,7 +297,8 @@ impl<'a> Tracer<'a> {
         let mut u = Sampler::new(self.sampler, self.settings.seed, pixel, index, self.settings.replicate);
         let centre = Vec2::new(pixel[0] as f32 + 0.5, pixel[1] as f32 + 0.5);
         let film = centre + filter_offset(self.settings.filter, u.next_2d());
-        let ray = self.camera.ray(film, u.next_2d());
+        let lens = if self.camera.has_lens() { u.next_2d() } else { [0.5; 2] };
+        let ray = self.camera.ray(film, lens);
         integrator::radiance(&self.method, &ray, &mut u, watch)
     }
 }

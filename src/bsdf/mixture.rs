@@ -1,9 +1,11 @@
 //! A BSDF: the sum of its lobes, and one choice among them.
 
+use super::lambert::sample_cosine;
 use super::{Class, Eval, Lobe, Pdf, Sample, Transport};
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
 use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
 
 /// Most lobes of one BSDF.
 pub const MAX_LOBES: usize = 6;
@@ -99,6 +101,18 @@ impl Bsdf {
         if wo.z == 0.0 {
             return None;
         }
+        match self.only_lambert() {
+            Some(weight) => {
+                let wi = sample_cosine(wo, u);
+                let pdf = Pdf::SolidAngle(wi.z.abs() * FRAC_1_PI);
+                (wi.z != 0.0).then_some(Sample { wi, weight, specular: Spectrum::ZERO, pdf, eta: 1.0 })
+            }
+            None => self.sample_mixture(wo, uc, u, mode),
+        }
+    }
+
+    #[inline(never)]
+    fn sample_mixture(&self, wo: Vec3, uc: f32, u: [f32; 2], mode: Transport) -> Option<Sample> {
         let (entry, uc) = self.choose(uc, self.total, |_| true)?;
         if entry.lobe.is_delta() {
             return self.draw_delta(entry, wo, uc, mode);
@@ -119,6 +133,18 @@ impl Bsdf {
     /// f and density of the non-delta lobes for a pair of directions.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3, mode: Transport) -> Eval {
+        match self.only_lambert() {
+            Some(_) if wo.z * wi.z <= 0.0 => Eval::default(),
+            Some(albedo) => {
+                let pdf = wi.z.abs() * FRAC_1_PI;
+                Eval { f: albedo * FRAC_1_PI, specular: Spectrum::ZERO, pdf }
+            }
+            None => self.eval_mixture(wo, wi, mode),
+        }
+    }
+
+    #[inline(never)]
+    fn eval_mixture(&self, wo: Vec3, wi: Vec3, mode: Transport) -> Eval {
         let mut eval = Eval::default();
         for e in &self.entries {
             let (f, pdf) = e.lobe.eval(wo, wi, mode);
@@ -166,6 +192,15 @@ impl Bsdf {
     /// Directional albedo, reflection and transmission together.
     pub fn albedo(&self, wo: Vec3) -> Spectrum {
         self.entries.iter().map(|e| e.lobe.albedo(wo) * e.scale).sum()
+    }
+
+    /// Albedo of the only lobe where it is Lambert's: most surfaces of most scenes, and worth a way of its own.
+    #[inline]
+    fn only_lambert(&self) -> Option<Spectrum> {
+        match self.entries.as_slice() {
+            [Entry { lobe: Lobe::Lambert(l), scale, .. }] => Some(l.reflectance * *scale),
+            _ => None,
+        }
     }
 
     /// The lobe at `uc` of those that `among` admits, whose weights sum to `sum`, and `uc` rescaled to [0, 1) in it.

@@ -3,7 +3,7 @@
 use super::Aabb;
 use super::build::build;
 use super::kernel::{self, Isa, KernelRay};
-use super::node::{Node, TriangleLeaf};
+use super::node::{Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
 use glam::Vec3;
@@ -19,6 +19,8 @@ pub struct TriangleHit {
     pub v: f32,
     /// Which triangle.
     pub triangle: u32,
+    /// Leaf and lane that hold it.
+    pub(super) slot: u32,
 }
 
 /// Triangles that rays can ask two questions.
@@ -78,6 +80,13 @@ impl TriangleBvh {
     #[inline]
     pub fn occluded(&self, ray: &Ray) -> bool {
         !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray))
+    }
+
+    /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.
+    #[inline]
+    pub fn vertices(&self, hit: &TriangleHit) -> [Vec3; 3] {
+        let (leaf, lane) = (&self.leaves[hit.slot as usize / WIDTH], hit.slot as usize % WIDTH);
+        [0, 1, 2].map(|i| Vec3::new(leaf.v[i][0][lane], leaf.v[i][1][lane], leaf.v[i][2][lane]))
     }
 
     /// Box about all triangles.

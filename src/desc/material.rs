@@ -190,7 +190,29 @@ impl ScalarParam {
     }
 }
 
+impl Model {
+    /// All its colours.
+    fn colors_mut(&mut self) -> Vec<&mut ColorParam> {
+        match self {
+            Self::Diffuse { reflectance } | Self::Mirror { reflectance } => vec![reflectance],
+            Self::Dielectric { tint, .. } => vec![tint],
+            Self::Conductor { fresnel: Fresnel::Schlick { f0 }, .. } => vec![f0],
+            Self::Conductor { fresnel: Fresnel::Complex { .. }, .. } | Self::Absorb => Vec::new(),
+            Self::Mix(parts) => parts.iter_mut().flat_map(|(_, model)| model.colors_mut()).collect(),
+            Self::MetallicRoughness(m) => vec![&mut m.base_color, &mut m.specular_color],
+        }
+    }
+}
+
 impl Material {
+    /// Where no mesh has vertex colours, nothing varies with them.
+    pub fn ignore_vertex_colors(&mut self) {
+        let emitted = self.emission.as_mut().map(|e| &mut e.radiance);
+        for color in self.model.colors_mut().into_iter().chain(emitted) {
+            color.vertex_color = false;
+        }
+    }
+
     /// A material of this model, without emission, maps or holes.
     pub fn new(name: impl Into<String>, model: Model) -> Self {
         Self { name: name.into(), model, emission: None, normal_map: None, alpha: Alpha::Opaque, double_sided: true }

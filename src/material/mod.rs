@@ -103,19 +103,13 @@ impl Material {
     #[inline]
     pub fn bsdf<'a>(&'a self, s: &Surface, wo: Vec3, textures: &Textures, scratch: &'a mut Bsdf) -> &'a Bsdf {
         match &self.scattering {
-            Scattering::Single(bsdf) => return bsdf,
-            Scattering::Absorb => scratch.clear(),
-            Scattering::Sum(parts) => {
-                let at = Point { uv: &s.uv, color: s.color, textures };
+            Scattering::Single(bsdf) => bsdf,
+            Scattering::Absorb => {
                 scratch.clear();
-                for (weight, part) in parts {
-                    part.lobes(at, |lobe, scale| {
-                        scratch.push_by_albedo(lobe, weight * scale, wo);
-                    });
-                }
+                scratch
             }
+            Scattering::Sum(parts) => sum(parts, Point { uv: &s.uv, color: s.color, textures }, wo, scratch),
         }
-        scratch
     }
 
     /// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.
@@ -154,18 +148,33 @@ impl Material {
     /// surface has no tangent to turn it by.
     #[inline]
     pub fn shading_normal(&self, s: &Surface, textures: &Textures) -> Option<Vec3> {
-        let map = self.normal_map.as_ref()?;
-        if s.tangent == Vec3::ZERO {
-            return None;
-        }
-        let rgb = textures.lookup(&map.texture, &s.uv).truncate();
-        let local = (rgb * 2.0 - Vec3::ONE) * Vec3::new(map.scale, map.scale, 1.0);
-        let n = Frame::from_z_tangent(s.ns, s.tangent, s.handedness).to_world(local).try_normalize()?;
-        // What points into the surface is lifted just above it.
-        const LEAST: f32 = 0.01;
-        let height = n.dot(s.ng);
-        if height >= LEAST { Some(n) } else { (n + s.ng * (LEAST - height)).try_normalize() }
+        self.normal_map.as_ref().and_then(|map| mapped_normal(map, s, textures))
     }
+}
+
+#[inline(never)]
+fn mapped_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Vec3> {
+    if s.tangent == Vec3::ZERO {
+        return None;
+    }
+    let rgb = textures.lookup(&map.texture, &s.uv).truncate();
+    let local = (rgb * 2.0 - Vec3::ONE) * Vec3::new(map.scale, map.scale, 1.0);
+    let n = Frame::from_z_tangent(s.ns, s.tangent, s.handedness).to_world(local).try_normalize()?;
+    // What points into the surface is lifted just above it.
+    const LEAST: f32 = 0.01;
+    let height = n.dot(s.ng);
+    if height >= LEAST { Some(n) } else { (n + s.ng * (LEAST - height)).try_normalize() }
+}
+
+#[inline(never)]
+fn sum<'a>(parts: &[(f32, Part)], at: Point, wo: Vec3, scratch: &'a mut Bsdf) -> &'a Bsdf {
+    scratch.clear();
+    for (weight, part) in parts {
+        part.lobes(at, |lobe, scale| {
+            scratch.push_by_albedo(lobe, weight * scale, wo);
+        });
+    }
+    scratch
 }
 
 /// Most lobes that a model makes at a hit; above [`crate::bsdf::MAX_LOBES`], the least weighty are lost.

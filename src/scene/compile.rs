@@ -92,9 +92,14 @@ impl<'a> Builder<'a> {
     fn new(desc: &'a desc::Scene) -> Self {
         let mut uses = vec![0; desc.shapes.len()];
         desc.objects.iter().for_each(|o| uses[o.shape] += 1);
+        let colored = |shape: &Shape| matches!(shape, Shape::Mesh(mesh) if !mesh.colors.is_empty());
+        let mut materials = desc.materials.clone();
+        if !desc.shapes.iter().any(colored) {
+            materials.iter_mut().for_each(desc::Material::ignore_vertex_colors);
+        }
         Self {
             desc,
-            materials: desc.materials.clone(),
+            materials,
             parts: Vec::new(),
             prototypes: Vec::new(),
             prototype_of: vec![None; desc.shapes.len()],

@@ -1,6 +1,6 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
-use crate::bvh::{Aabb, BoxBvh, TriangleBvh};
+use crate::bvh::{Aabb, BoxBvh, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{
@@ -64,10 +64,8 @@ pub struct Instance {
 pub struct Hit {
     /// Ray parameter.
     pub t: f32,
-    /// Barycentric coordinates of the second and third vertex.
-    uv: [f32; 2],
-    /// Triangle of the world mesh, of the prototype, or nothing for a quadric.
-    triangle: u32,
+    /// The triangle of the world mesh, of the prototype, or nothing for a quadric.
+    triangle: TriangleHit,
     /// Instance, or quadric behind all instances, or [`WORLD`].
     object: u32,
 }
@@ -122,8 +120,7 @@ impl Geometry {
     /// Nearest hit in (0, `ray.t_max`).
     #[inline]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let mut nearest =
-            self.world.nearest(ray).map(|h| Hit { t: h.t, uv: [h.u, h.v], triangle: h.triangle, object: WORLD });
+        let mut nearest = self.world.nearest(ray).map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
         if self.objects.is_empty() {
             return nearest;
         }
@@ -154,12 +151,12 @@ impl Geometry {
     fn object(&self, object: u32, ray: &Ray) -> Option<Hit> {
         match self.instances.get(object as usize) {
             Some(instance) => {
-                let hit = instance.nearest(&self.prototypes[instance.prototype as usize], ray)?;
-                Some(Hit { t: hit.t, uv: [hit.u, hit.v], triangle: hit.triangle, object })
+                let triangle = instance.nearest(&self.prototypes[instance.prototype as usize], ray)?;
+                Some(Hit { t: triangle.t, triangle, object })
             }
             None => {
                 let t = self.quadrics[object as usize - self.instances.len()].0.intersect(ray)?;
-                Some(Hit { t, uv: [0.0; 2], triangle: 0, object })
+                Some(Hit { t, triangle: TriangleHit::default(), object })
             }
         }
     }
@@ -167,13 +164,12 @@ impl Geometry {
     /// The surface at a hit of `ray`, and whose it is (with the emitter of this very triangle).
     #[inline]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
-        let [u, v] = hit.uv;
+        let TriangleHit { u, v, triangle, .. } = hit.triangle;
         if hit.object == WORLD {
-            let Origin { part, triangle, ng } = self.origin[hit.triangle as usize];
+            let Origin { part, triangle, ng } = self.origin[triangle as usize];
             let part = &self.parts[part as usize];
             let owner = part.owner.of_triangle(triangle);
-            let p = part.mesh.indices[triangle as usize].map(|i| part.mesh.positions[i as usize]);
-            let flat = flat_surface(p, u, v, ng);
+            let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng);
             if !part.mesh.has_attributes() {
                 return (flat, owner);
             }
@@ -183,7 +179,7 @@ impl Geometry {
         match self.instances.get(hit.object as usize) {
             Some(instance) => {
                 let mesh = &self.prototypes[instance.prototype as usize].mesh;
-                (instance.surface(mesh, hit.triangle, u, v), instance.owner.of_triangle(hit.triangle))
+                (instance.surface(mesh, triangle, u, v), instance.owner.of_triangle(triangle))
             }
             None => {
                 let (quadric, owner) = &self.quadrics[hit.object as usize - self.instances.len()];
@@ -235,10 +231,11 @@ impl Instance {
         (Ray { o: o + d * shift, d, t_max: ray.t_max - shift }, shift)
     }
 
-    fn nearest(&self, prototype: &Prototype, ray: &Ray) -> Option<crate::bvh::TriangleHit> {
+    fn nearest(&self, prototype: &Prototype, ray: &Ray) -> Option<TriangleHit> {
         let (local, skipped) = self.ray(ray);
-        let hit = prototype.bvh.nearest(&local)?;
-        Some(crate::bvh::TriangleHit { t: hit.t + skipped, ..hit })
+        let mut hit = prototype.bvh.nearest(&local)?;
+        hit.t += skipped;
+        Some(hit)
     }
 
     fn occluded(&self, prototype: &Prototype, ray: &Ray) -> bool {

@@ -34,7 +34,7 @@ impl KernelRay {
             d_inv: d_inv.to_array(),
             near: std::array::from_fn(|axis| 2 * axis + usize::from(d_inv[axis] < 0.0)),
             axes: [kx, ky, kz],
-            shear: [d[kx] / d[kz], d[ky] / d[kz], 1.0 / d[kz]],
+            shear: [d[kx] * d_inv[kz], d[ky] * d_inv[kz], d_inv[kz]],
             t_max,
         }
     }

@@ -4,7 +4,7 @@
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
         use super::{KernelRay, Stack};
-        use crate::bvh::node::{LEAF, Node, TriangleLeaf};
+        use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::TriangleHit;
 
         /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
@@ -43,14 +43,15 @@ macro_rules! kernels {
             (near.le(far), near)
         }
 
-        /// Lanes whose triangle the ray hits in (0, t_max), with t and the barycentric coordinates of v1 and v2.
+        /// Lanes whose triangle the ray hits in (0, t_max), with t, and the barycentric coordinates of v1 and v2 times the
+        /// determinant.
         ///
         /// Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection": in the sheared space the ray is the
         /// third axis and vertices are points of the plane, the same for all triangles that share them. A rounded
         /// difference of products has the right sign unless it is 0; zeros are decided in f64.
         #[inline]
         $(#[$isa])?
-        fn triangles(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, Lanes, Lanes, Lanes) {
+        fn triangles(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, [Lanes; 4]) {
             let [kx, ky, kz] = ray.axes;
             let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
             let [sx, sy, sz] = ray.shear;
@@ -67,7 +68,7 @@ macro_rules! kernels {
             let mut v = ax.mul(cy).sub(ay.mul(cx));
             let mut w = bx.mul(ay).sub(by.mul(ax));
             let zero = Lanes::splat(0.0);
-            if u.eq(zero) | v.eq(zero) | w.eq(zero) != 0 {
+            if u.mul(v).mul(w).eq(zero) != 0 {
                 let exact = |a: Lanes, b: Lanes, c: Lanes, d: Lanes| {
                     let (a, b, c, d) = (a.to_array(), b.to_array(), c.to_array(), d.to_array());
                     Lanes::load(&std::array::from_fn(|i| {
@@ -78,11 +79,11 @@ macro_rules! kernels {
                 v = exact(ax, cy, ay, cx);
                 w = exact(bx, ay, by, ax);
             }
-            let negative = u.lt(zero) | v.lt(zero) | w.lt(zero);
-            let positive = zero.lt(u) | zero.lt(v) | zero.lt(w);
+            let negative = u.min(v).min(w).lt(zero);
+            let positive = zero.lt(u.max(v).max(w));
             let candidates = !(negative & positive) & (negative | positive) & 0xff;
             if candidates == 0 {
-                return (0, zero, zero, zero);
+                return (0, [zero; 4]);
             }
             let det = u.add(v).add(w);
             let mut t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
@@ -98,7 +99,7 @@ macro_rules! kernels {
             let dt = G3.times(me.mul(mz)).add(de.mul(mz)).add(dz.mul(me)).div(det.abs());
             let dt = dt.add(dt).add(dt);
             let end = Lanes::splat(t_max);
-            let possible = candidates & !t.lt(zero.sub(dt)) & !end.lt(t.sub(dt));
+            let possible = candidates & zero.sub(dt).le(t) & t.sub(dt).le(end);
             let certain = possible & dt.lt(t) & t.lt(end.sub(dt));
             let mut hits = certain;
             let mut doubtful = possible & !certain;
@@ -113,7 +114,7 @@ macro_rules! kernels {
                 }
                 t = Lanes::load(&exact);
             }
-            (hits, t, v.div(det), w.div(det))
+            (hits, [t, v, w, det])
         }
 
         /// Nearest hit; see [`super::nearest`].
@@ -129,15 +130,21 @@ macro_rules! kernels {
                 if child & LEAF != 0 {
                     // Keep the nearest triangle of the leaf.
                     let leaf = &leaves[(child & !LEAF) as usize];
-                    let (mut hits, t, u, v) = triangles(leaf, ray, t_max);
+                    let (mut hits, found_lanes) = triangles(leaf, ray, t_max);
                     if hits != 0 {
-                        let (t, u, v) = (t.to_array(), u.to_array(), v.to_array());
+                        let [t, v, w, det] = [found_lanes[0].to_array(), found_lanes[1].to_array(), found_lanes[2].to_array(), found_lanes[3].to_array()];
                         while hits != 0 {
                             let lane = hits.trailing_zeros() as usize & 7;
                             hits &= hits - 1;
                             if t[lane] < t_max {
                                 t_max = t[lane];
-                                *hit = TriangleHit { t: t[lane], u: u[lane], v: v[lane], triangle: leaf.id[lane] };
+                                *hit = TriangleHit {
+                                    t: t[lane],
+                                    u: v[lane] / det[lane],
+                                    v: w[lane] / det[lane],
+                                    triangle: leaf.id[lane],
+                                    slot: (child & !LEAF) * WIDTH as u32 + lane as u32,
+                                };
                                 found = true;
                             }
                         }
