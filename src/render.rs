@@ -11,6 +11,7 @@ use crate::spectrum::Spectrum;
 use glam::Vec2;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What is rendered, and how.
@@ -132,6 +133,32 @@ pub enum Error {
 /// Most bad samples that are listed one by one.
 const LISTED: usize = 100;
 
+/// What all workers add to.
+struct Sums {
+    film: Film,
+    bad: Vec<BadSample>,
+    bad_count: u64,
+}
+
+impl Sums {
+    fn add(&mut self, tile: Tile) {
+        for ((x, y), sums) in positions(tile.area).zip(&tile.pixels) {
+            self.film.add_replicate(x, y, sums);
+        }
+        self.bad_count += tile.bad.len() as u64;
+        self.bad.extend(tile.bad);
+        if self.bad.len() > 4 * LISTED {
+            first_bad(&mut self.bad);
+        }
+    }
+}
+
+/// Keeps the first bad samples by index and place, whichever worker met them when.
+fn first_bad(bad: &mut Vec<BadSample>) {
+    bad.sort_by_key(|b| (b.index, b.pixel[1], b.pixel[0]));
+    bad.truncate(LISTED);
+}
+
 /// Renders. Every pixel's samples are taken in the order of their indices, whatever the threads and tiles, so the
 /// image is the same bit for bit. `stop` ends it after the running pass (one replicate of every pixel).
 pub fn render(
@@ -143,14 +170,16 @@ pub fn render(
     let tracer = Tracer::new(scene, settings)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
     let start = Instant::now();
-    let mut film = Film::new(settings.size, settings.crop, settings.transport);
+    let sums = Mutex::new(Sums {
+        film: Film::new(settings.size, settings.crop, settings.transport),
+        bad: Vec::new(),
+        bad_count: 0,
+    });
     let tiles = tiles(settings.crop, settings.tile.max(1));
     let [x0, y0, x1, y1] = settings.crop;
     let pixels = u64::from(x1 - x0) * u64::from(y1 - y0);
     let total = pixels * u64::from(settings.spp);
     let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
-    let mut bad = Vec::new();
-    let mut bad_count = 0;
     let mut done = 0;
     let mut relative_error = f64::NAN;
     while done < settings.spp {
@@ -159,30 +188,21 @@ pub fn render(
             break;
         }
 
-        // One replicate of every pixel, tile by tile.
-        let pass: Vec<Tile> = pool.install(|| {
-            tiles
-                .par_iter()
-                .map(|&area| {
-                    let tile = tracer.tile(area, u64::from(done));
-                    rays.fetch_add(tile.rays, Ordering::Relaxed);
-                    let so_far = samples.fetch_add(tile.samples, Ordering::Relaxed) + tile.samples;
-                    let rays = rays.load(Ordering::Relaxed);
-                    progress(&Progress { samples: so_far, total, rays, elapsed: start.elapsed(), relative_error });
-                    tile
-                })
-                .collect()
+        // One replicate of every pixel. A pixel is in one tile, so the order in which tiles end changes no sum.
+        pool.install(|| {
+            tiles.par_iter().for_each(|&area| {
+                let tile = tracer.tile(area, u64::from(done));
+                let rays = rays.fetch_add(tile.rays, Ordering::Relaxed) + tile.rays;
+                let samples = samples.fetch_add(tile.samples, Ordering::Relaxed) + tile.samples;
+                sums.lock().unwrap_or_else(PoisonError::into_inner).add(tile);
+                progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error });
+            });
         });
-        for tile in pass {
-            for ((x, y), sums) in positions(tile.area).zip(&tile.pixels) {
-                film.add_replicate(x, y, sums);
-            }
-            bad_count += tile.bad.len() as u64;
-            bad.extend(tile.bad.into_iter().take(LISTED - bad.len().min(LISTED)));
-        }
         done += settings.replicate;
-        relative_error = film.relative_error();
+        relative_error = sums.lock().unwrap_or_else(PoisonError::into_inner).film.relative_error();
     }
+    let Sums { film, mut bad, bad_count } = sums.into_inner().unwrap_or_else(PoisonError::into_inner);
+    first_bad(&mut bad);
     Ok(Output {
         film,
         bad,

@@ -16,6 +16,7 @@ pub(super) fn replace(scene: &mut desc::Scene, path: &Path) -> Result<Origin, Er
     if cleared > 0 {
         scene.notes.push(format!("{name}: {cleared} pixels with negative values were set to 0 there"));
     }
+    scene.notes.retain(|note| note != desc::NO_LIGHT);
     scene.environment =
         Some(Environment { radiance: [1.0; 3], image: Some(scene.images.len()), to_world: Mat3::IDENTITY });
     scene.images.push(Arc::new(image));

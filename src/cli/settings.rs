@@ -43,7 +43,7 @@ pub(super) fn choose(arguments: &Arguments, scene: &desc::Scene) -> Result<Choic
     // With a time limit alone, samples are taken until it is over.
     let timed = arguments.time.is_some() && arguments.spp.is_none();
     let asked = if timed { u32::MAX / 2 } else { arguments.spp.or(file.spp).unwrap_or(SPP).max(1) };
-    let replicate = arguments.replicate.unwrap_or(if timed { 16 } else { default_replicate(asked) });
+    let replicate = arguments.replicate.unwrap_or(if timed { 4 } else { default_replicate(asked) });
     let spp = if timed { asked / replicate * replicate } else { round_up(asked, replicate)? };
     if !timed && spp != asked {
         notes.push(format!("{asked} samples per pixel become {spp}: whole replicates of {replicate}"));

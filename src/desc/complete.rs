@@ -4,6 +4,9 @@ use super::frame_camera::framing;
 use super::{Emission, Environment, Scene};
 use glam::Mat3;
 
+/// The note on a scene that was given a light.
+pub const NO_LIGHT: &str = "there is no light: a uniform environment of radiance 1 was added";
+
 /// Frames a scene that has no camera, and gives one without any light a uniform environment of radiance 1. The notes
 /// say so.
 pub fn complete(scene: &mut Scene) {
@@ -13,7 +16,7 @@ pub fn complete(scene: &mut Scene) {
     }
     if !is_lit(scene) {
         scene.environment = Some(Environment { radiance: [1.0; 3], image: None, to_world: Mat3::IDENTITY });
-        scene.notes.push("there is no light: a uniform environment of radiance 1 was added".into());
+        scene.notes.push(NO_LIGHT.into());
     }
 }
 

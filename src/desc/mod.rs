@@ -21,7 +21,7 @@ mod shape;
 pub mod toml;
 
 pub use camera::{Camera, Fov, Lens, Projection};
-pub use complete::complete;
+pub use complete::{NO_LIGHT, complete};
 pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
