@@ -8,8 +8,9 @@ use obvhs::bvh2::node::Bvh2Node;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 
-/// Cost of visiting a leaf of up to eight primitives, relative to visiting a node.
-const LEAF_COST: f32 = 0.7;
+/// Cost of visiting a leaf of up to eight primitives, relative to visiting a node. The optimum is flat; on the Cornell
+/// box 1.5 is 8 % faster than 0.7 and than 3.
+const LEAF_COST: f32 = 1.5;
 
 /// A wide tree: node 0 is the root; leaf `i` holds the primitives `leaves[i]`.
 #[derive(Debug, Default)]

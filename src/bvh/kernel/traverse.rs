@@ -108,9 +108,9 @@ macro_rules! kernels {
                 while doubtful != 0 {
                     let lane = doubtful.trailing_zeros() as usize & 7;
                     doubtful &= doubtful - 1;
-                    let t = ray.plane_distance(leaf, lane);
+                    let Some(t) = ray.plane_ahead(leaf, lane) else { continue };
                     exact[lane] = t as f32;
-                    hits |= u32::from(t > 0.0 && exact[lane] < t_max) << lane;
+                    hits |= u32::from(exact[lane] < t_max) << lane;
                 }
                 t = Lanes::load(&exact);
             }
