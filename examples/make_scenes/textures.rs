@@ -111,7 +111,7 @@ pub(super) fn scratches(size: u32) -> RgbImage {
     draw(size, size, |u, v| {
         let worn = octaves(u, v, 4, 3, 90);
         let scratch = noise((u + 0.3 * v).rem_euclid(1.0) * 64.0, v * 2.0, 64, 91);
-        [0.0, 0.15 + 0.35 * worn + if scratch > 0.85 { 0.25 } else { 0.0 }, 1.0]
+        [0.0, 0.45 + 0.3 * worn + if scratch > 0.85 { 0.2 } else { 0.0 }, 1.0]
     })
 }
 
