@@ -125,7 +125,7 @@ impl<'a> Reader<'a> {
                     self.unknown_materials.insert(name.into());
                 }
             }
-            "mtllib" => self.library(rest.trim())?,
+            "mtllib" => self.material_library(rest.trim())?,
             "l" | "p" | "curv" | "curv2" | "surf" => self.left_out += 1,
             _ => {}
         }
@@ -248,7 +248,7 @@ impl<'a> Reader<'a> {
     }
 
     /// `mtllib a.mtl`. OBJ files often travel without it, so that a missing library is a note.
-    fn library(&mut self, name: &str) -> Result<(), Fault> {
+    fn material_library(&mut self, name: &str) -> Result<(), Fault> {
         let name = name.replace('\\', "/");
         let folder = Folder::of(self.path);
         let path = match folder.resolve(&name, "") {
