@@ -87,11 +87,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn json_survives_as_ascii() {
+    fn json_survives_as_ascii() -> Result<(), serde_json::Error> {
         let text = ascii("{\"name\":\"Zürich 🌍\"}");
         assert!(text.is_ascii());
-        let value: serde_json::Value = serde_json::from_str(&text).unwrap();
+        let value: serde_json::Value = serde_json::from_str(&text)?;
         assert_eq!(value["name"], "Zürich 🌍");
+        Ok(())
     }
 
     #[test]
