@@ -50,6 +50,7 @@
 //! | 4 | [`scene`] | desc → what is traced |
 //! | 5 | [`integrator`] | raycast, local, whitted, path |
 //! | 6 | [`render`] | tiles × sample indices → film |
+//! | 7 | [`verify`] | the checks of all of it, as a command and as a library |
 
 pub mod bsdf;
 pub mod bvh;
@@ -67,6 +68,7 @@ pub mod shape;
 pub mod spectrum;
 pub mod stats;
 pub mod texture;
+pub mod verify;
 pub mod warp;
 
 pub use glam;

@@ -43,7 +43,7 @@ pub struct Settings {
     pub filter: Filter,
     /// Split radiance by transport class.
     pub transport: bool,
-    /// Worker threads; 0: all cores.
+    /// Worker threads; 0: those of the rayon pool that the caller is in, or all cores.
     pub threads: usize,
     /// Side of a tile in pixels; changes nothing in the image.
     pub tile: u32,
@@ -168,7 +168,10 @@ pub fn render(
     progress: &(dyn Fn(&Progress) + Sync),
 ) -> Result<Output, Error> {
     let tracer = Tracer::new(scene, settings)?;
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(settings.threads).build()?;
+    let pool = match settings.threads {
+        0 => None,
+        threads => Some(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?),
+    };
     let start = Instant::now();
     let sums = Mutex::new(Sums {
         film: Film::new(settings.size, settings.crop, settings.transport),
@@ -189,7 +192,7 @@ pub fn render(
         }
 
         // One replicate of every pixel. A pixel is in one tile, so the order in which tiles end changes no sum.
-        pool.install(|| {
+        let pass = || {
             tiles.par_iter().for_each(|&area| {
                 let tile = tracer.tile(area, u64::from(done));
                 let rays = rays.fetch_add(tile.rays, Ordering::Relaxed) + tile.rays;
@@ -197,7 +200,11 @@ pub fn render(
                 sums.lock().unwrap_or_else(PoisonError::into_inner).add(tile);
                 progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error });
             });
-        });
+        };
+        match &pool {
+            Some(pool) => pool.install(pass),
+            None => pass(),
+        }
         done += settings.replicate;
         relative_error = sums.lock().unwrap_or_else(PoisonError::into_inner).film.relative_error();
     }

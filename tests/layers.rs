@@ -22,6 +22,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("scene", 4),
     ("integrator", 5),
     ("render", 6),
+    ("verify", 7),
     ("cli", 8),
 ];
 

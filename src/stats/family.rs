@@ -1,6 +1,6 @@
 //! Checks that share one significance.
 
-use super::{ALPHA, Chi2, Moments, normal_quantile, sidak, two_sided_p, z, z_limit};
+use super::{ALPHA, Chi2, Moments, normal_quantile, sidak, t_limit, two_sided_t, z, z_of_p};
 use std::fmt;
 
 /// What speaks for or against a check.
@@ -14,6 +14,8 @@ pub enum Evidence {
         estimate: f64,
         /// Its standard error.
         se: f64,
+        /// Degrees of freedom that the standard error was estimated with: replicates − 1; infinite where it is known.
+        dof: f64,
         /// Largest absolute error of arithmetic, granted before z is taken.
         rounding: f64,
     },
@@ -22,6 +24,31 @@ pub enum Evidence {
         /// The p-value.
         p: f64,
     },
+    /// An identity that arithmetic alone limits: the largest relative deviation of all comparisons, and what rounding
+    /// explains. Nothing random is in it.
+    Bound {
+        /// Largest deviation found.
+        worst: f64,
+        /// Largest deviation allowed.
+        bound: f64,
+    },
+}
+
+impl Evidence {
+    /// The mean of independent replicates against its exact value; a relative error of `rounding` is granted.
+    pub fn replicated(exact: f64, replicates: &Moments, rounding: f64) -> Self {
+        let (estimate, se) = (replicates.mean(), replicates.standard_error());
+        Self::Z { exact, estimate, se, dof: replicates.n() as f64 - 1.0, rounding: rounding * exact.abs() }
+    }
+
+    /// Two independent estimates of one number, `a` against `b` (Welch 1947); a relative error of `rounding` is granted.
+    pub fn equal(a: &Moments, b: &Moments, rounding: f64) -> Self {
+        let [va, vb] = [a, b].map(|m| m.standard_error().powi(2));
+        let parts = va.powi(2) / (a.n() as f64 - 1.0) + vb.powi(2) / (b.n() as f64 - 1.0);
+        let dof = if parts > 0.0 { (va + vb).powi(2) / parts } else { f64::INFINITY };
+        let exact = b.mean();
+        Self::Z { exact, estimate: a.mean(), se: (va + vb).sqrt(), dof, rounding: rounding * exact.abs() }
+    }
 }
 
 /// One named check.
@@ -34,16 +61,28 @@ pub struct Check {
 }
 
 impl Check {
-    /// Its z, where it has one; differences within rounding count as none.
-    pub fn z(&self) -> Option<f64> {
+    /// (estimate − exact)/SE, where it has one; differences within rounding count as none.
+    pub fn t(&self) -> Option<f64> {
         match self.evidence {
-            Evidence::Z { exact, estimate, se, rounding } if (estimate - exact).abs() <= rounding => {
+            Evidence::Z { exact, estimate, se, rounding, .. } if (estimate - exact).abs() <= rounding => {
                 Some(z(exact, exact, se))
             }
-            Evidence::Z { exact, estimate, se, rounding } => {
+            Evidence::Z { exact, estimate, se, rounding, .. } => {
                 Some(z(estimate - rounding.copysign(estimate - exact), exact, se))
             }
-            Evidence::P { .. } => None,
+            Evidence::P { .. } | Evidence::Bound { .. } => None,
+        }
+    }
+
+    /// The standard normal's quantile that is as unlikely as [`t`](Self::t) is by Student's law with the standard
+    /// error's degrees of freedom: right checks follow the normal, however few replicates they have.
+    pub fn z(&self) -> Option<f64> {
+        let t = self.t()?;
+        match self.evidence {
+            Evidence::Z { dof, .. } if dof.is_finite() && t.is_finite() => {
+                Some(z_of_p(two_sided_t(t, dof)).copysign(t))
+            }
+            _ => Some(t),
         }
     }
 
@@ -52,16 +91,18 @@ impl Check {
         match self.evidence {
             Evidence::P { p } if p.is_nan() => 0.0,
             Evidence::P { p } => p,
-            Evidence::Z { .. } => self.z().map_or(0.0, two_sided_p),
+            Evidence::Bound { worst, bound } => f64::from(worst <= bound),
+            Evidence::Z { dof, .. } => self.t().map_or(0.0, |t| two_sided_t(t, dof)),
         }
     }
 
-    /// Smallest relative bias that a test at |z| ≤ `limit` finds with probability 0.99.
-    pub fn detects(&self, limit: f64) -> Option<f64> {
+    /// Smallest relative bias that a test with p ≥ `share` finds with probability 0.99.
+    pub fn detects(&self, share: f64) -> Option<f64> {
         match self.evidence {
-            Evidence::Z { exact, se, rounding, .. } => {
-                Some((rounding + (limit + normal_quantile(0.99)) * se) / exact.abs())
+            Evidence::Z { exact, se, rounding, dof, .. } => {
+                Some((rounding + (t_limit(share, dof) + normal_quantile(0.99)) * se) / exact.abs())
             }
+            Evidence::Bound { bound, .. } => Some(bound),
             Evidence::P { .. } => None,
         }
     }
@@ -93,22 +134,28 @@ impl Family {
 
     /// Adds an estimate from independent replicates against its exact value.
     pub fn moments(&mut self, name: impl Into<String>, exact: f64, replicates: &Moments) {
-        self.estimate(name, exact, replicates.mean(), replicates.standard_error());
+        self.replicated(name, exact, replicates, 0.0);
+    }
+
+    /// The same in f32 arithmetic: a relative error of `rounding` is granted.
+    pub fn replicated(&mut self, name: impl Into<String>, exact: f64, replicates: &Moments, rounding: f64) {
+        self.push(name, Evidence::replicated(exact, replicates, rounding));
     }
 
     /// Adds an estimate with a known standard error.
     pub fn estimate(&mut self, name: impl Into<String>, exact: f64, estimate: f64, se: f64) {
-        self.push(name, Evidence::Z { exact, estimate, se, rounding: 0.0 });
+        self.push(name, Evidence::Z { exact, estimate, se, dof: f64::INFINITY, rounding: 0.0 });
     }
 
     /// Adds an estimate of f32 arithmetic: a relative error of `rounding` is granted.
     pub fn rounded(&mut self, name: impl Into<String>, exact: f64, estimate: f64, se: f64, rounding: f64) {
-        self.push(name, Evidence::Z { exact, estimate, se, rounding: rounding * exact.abs() });
+        let rounding = rounding * exact.abs();
+        self.push(name, Evidence::Z { exact, estimate, se, dof: f64::INFINITY, rounding });
     }
 
     /// Adds two independent estimates that must agree.
     pub fn equal(&mut self, name: impl Into<String>, a: &Moments, b: &Moments) {
-        self.estimate(name, b.mean(), a.mean(), a.standard_error().hypot(b.standard_error()));
+        self.push(name, Evidence::equal(a, b, 0.0));
     }
 
     /// Adds a χ² test.
@@ -119,6 +166,21 @@ impl Family {
     /// Adds a p-value.
     pub fn p(&mut self, name: impl Into<String>, p: f64) {
         self.push(name, Evidence::P { p });
+    }
+
+    /// Adds an identity: the largest relative deviation that was found, and the largest that arithmetic explains.
+    pub fn bound(&mut self, name: impl Into<String>, worst: f64, bound: f64) {
+        self.push(name, Evidence::Bound { worst, bound });
+    }
+
+    /// Adds a yes or no.
+    pub fn holds(&mut self, name: impl Into<String>, holds: bool) {
+        self.p(name, f64::from(holds));
+    }
+
+    /// The checks, taken out.
+    pub fn into_checks(self) -> Vec<Check> {
+        self.checks
     }
 
     /// The checks so far.
@@ -148,7 +210,8 @@ impl Family {
 impl fmt::Display for Family {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let n = self.checks.len();
-        let (share, limit) = (sidak(self.alpha, n), z_limit(self.alpha, n));
+        let share = sidak(self.alpha, n);
+        let limit = t_limit(share, f64::INFINITY);
         writeln!(f, "{}: {n} checks at α = {:.0e}, |z| ≤ {limit:.2}, p ≥ {share:.1e} each", self.name, self.alpha)?;
         let width = self.checks.iter().map(|c| c.name.chars().count()).max().unwrap_or(0);
         for check in &self.checks {
@@ -156,11 +219,12 @@ impl fmt::Display for Family {
             write!(f, "  {verdict:4} {:width$}", check.name)?;
             match check.evidence {
                 Evidence::P { p } => writeln!(f, "  p {p:.3e}")?,
+                Evidence::Bound { worst, bound } => writeln!(f, "  worst {worst:.1e} of {bound:.1e}")?,
                 Evidence::Z { exact, estimate, se, .. } => writeln!(
                     f,
                     "  exact {exact:<12.6e} estimate {estimate:<12.6e} ± {se:.1e}  z {:+.2}  detects {:.3} %",
                     check.z().unwrap_or(f64::NAN),
-                    100.0 * check.detects(limit).unwrap_or(f64::NAN),
+                    100.0 * check.detects(share).unwrap_or(f64::NAN),
                 )?,
             }
         }
@@ -189,8 +253,9 @@ mod tests {
     fn what_is_no_number_fails() {
         for evidence in [
             Evidence::P { p: f64::NAN },
-            Evidence::Z { exact: 1.0, estimate: f64::NAN, se: 1.0, rounding: 0.0 },
-            Evidence::Z { exact: 1.0, estimate: 1.0, se: f64::NAN, rounding: 0.0 },
+            Evidence::Bound { worst: f64::NAN, bound: 1.0 },
+            Evidence::Z { exact: 1.0, estimate: f64::NAN, se: 1.0, dof: 9.0, rounding: 0.0 },
+            Evidence::Z { exact: 1.0, estimate: 1.0, se: f64::NAN, dof: 9.0, rounding: 0.0 },
         ] {
             let mut family = Family::new("bad");
             family.push("bad", evidence);
@@ -201,9 +266,18 @@ mod tests {
     #[test]
     fn power_is_as_claimed() {
         // At a bias of `detects`, z is normal about limit + Φ⁻¹(0.99): it passes the limit with probability 0.99.
-        let check =
-            Check { name: String::new(), evidence: Evidence::Z { exact: 2.0, estimate: 2.0, se: 0.01, rounding: 0.0 } };
-        let bias = check.detects(3.0).unwrap() * 2.0;
+        let evidence = Evidence::Z { exact: 2.0, estimate: 2.0, se: 0.01, dof: f64::INFINITY, rounding: 0.0 };
+        let check = Check { name: String::new(), evidence };
+        let bias = check.detects(super::super::two_sided_p(3.0)).unwrap() * 2.0;
         assert!((super::super::normal_cdf(bias / 0.01 - 3.0) - 0.99).abs() < 1e-9);
+    }
+
+    #[test]
+    fn few_replicates_are_judged_by_student() {
+        // The two-sided 1 % point of 10 degrees of freedom is 3.1693, of the normal 2.5758.
+        let evidence = Evidence::Z { exact: 1.0, estimate: 4.169_272_667, se: 1.0, dof: 10.0, rounding: 0.0 };
+        let check = Check { name: String::new(), evidence };
+        assert!((check.p() - 0.01).abs() < 1e-8, "{}", check.p());
+        assert!((check.z().unwrap() - 2.575_829_3).abs() < 1e-6);
     }
 }

@@ -12,7 +12,7 @@ pub use chi2::{Chi2, chi2_test};
 pub use family::{Check, Evidence, Family};
 pub use moments::Moments;
 
-use statrs::distribution::{ContinuousCDF, Normal};
+use statrs::distribution::{ContinuousCDF, Normal, StudentsT};
 
 /// Significance that a family of checks shares where nothing else is said.
 pub const ALPHA: f64 = 1e-4;
@@ -54,6 +54,36 @@ pub fn two_sided_p(z: f64) -> f64 {
     if z.is_nan() { 0.0 } else { 2.0 * normal_cdf(-z.abs()) }
 }
 
+/// p-value of |t|, two-sided, by Student's law with `dof` degrees of freedom (infinite: the normal).
+pub fn two_sided_t(t: f64, dof: f64) -> f64 {
+    if t.is_nan() || dof.is_nan() {
+        return 0.0;
+    }
+    match StudentsT::new(0.0, 1.0, dof) {
+        // Beyond these the two laws differ by less than the error of the standard error's own estimate.
+        Ok(student) if dof < 1e5 => 2.0 * student.sf(t.abs()),
+        _ => two_sided_p(t),
+    }
+}
+
+/// The |z| whose two-sided p-value is `p`.
+pub fn z_of_p(p: f64) -> f64 {
+    -normal_quantile(0.5 * p.clamp(f64::MIN_POSITIVE, 1.0))
+}
+
+/// Two-sided threshold on |t| of a test with p ≥ `share`, by Student's law with `dof` degrees of freedom.
+pub fn t_limit(share: f64, dof: f64) -> f64 {
+    let (mut low, mut high) = (0.0, 1.0);
+    while two_sided_t(high, dof) > share && high < 1e9 {
+        high *= 2.0;
+    }
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if two_sided_t(middle, dof) > share { low = middle } else { high = middle }
+    }
+    high
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -72,6 +102,14 @@ mod tests {
             let family = -(n as f64 * (-each).ln_1p()).exp_m1();
             assert!((family / ALPHA - 1.0).abs() < 1e-9, "{n}: {family}");
         }
+    }
+
+    #[test]
+    fn student_has_heavier_tails() {
+        // Tabulated: t of 5 degrees of freedom at 0.1 %, two-sided, is 6.8688.
+        assert!((t_limit(1e-3, 5.0) - 6.868_826_6).abs() < 1e-6);
+        assert!((t_limit(1e-8, f64::INFINITY) - z_of_p(1e-8)).abs() < 1e-6);
+        assert!((two_sided_t(6.0, 63.0) / 1.0668e-7 - 1.0).abs() < 1e-3, "{:e}", two_sided_t(6.0, 63.0));
     }
 
     #[test]

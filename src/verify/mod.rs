@@ -1,0 +1,20 @@
+//! The battery that proves the estimator, and whatever else is given to it.
+//!
+//! A *check* is a hypothesis test ([`crate::stats::Check`]): an estimate with its standard error against a closed form, counts
+//! against an integrated density, two estimators of one integral, or an identity that rounding alone may break. A
+//! [`Task`] is a piece of work that makes some checks about one subject, under one [`Topic`]. [`run`] does tasks on all
+//! cores, and all checks of a run share one significance α (Šidák), so that correct code fails one run in 1/α.
+//!
+//! | module | what it makes |
+//! | --- | --- |
+//! | [`battery`] | the tasks that check this crate |
+//! | [`measure`] | means with as many samples as a detectable bias asks for |
+//! | [`report`] | what a run found |
+
+pub mod battery;
+pub mod measure;
+pub mod report;
+mod task;
+
+pub use report::{Report, Section};
+pub use task::{Curve, Exhibit, Findings, HeatMap, Picture, Progress, Size, Task, Topic, Trial, run};
