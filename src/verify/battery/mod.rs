@@ -4,5 +4,6 @@ use super::Task;
 
 /// Every check of the crate, row by row.
 pub fn tasks() -> Vec<Task> {
-    Vec::new()
+    let rows: [fn() -> Vec<Task>; 0] = [];
+    rows.iter().flat_map(|row| row()).collect()
 }
