@@ -41,6 +41,12 @@ impl Evidence {
         Self::Z { exact, estimate, se, dof: replicates.n() as f64 - 1.0, rounding: rounding * exact.abs() }
     }
 
+    /// A mean that must not exceed `limit`: against the value of that hypothesis which is nearest to it, so that only
+    /// an excess counts; a relative error of `rounding` is granted.
+    pub fn at_most(limit: f64, replicates: &Moments, rounding: f64) -> Self {
+        Self::replicated(limit.min(replicates.mean()), replicates, rounding)
+    }
+
     /// Two independent estimates of one number, `a` against `b` (Welch 1947); a relative error of `rounding` is granted.
     pub fn equal(a: &Moments, b: &Moments, rounding: f64) -> Self {
         let [va, vb] = [a, b].map(|m| m.standard_error().powi(2));

@@ -21,16 +21,30 @@ fn steps<const D: usize>() -> [f64; D] {
 /// Means of `f` over the unit cube: [`REPLICATES`] randomly shifted sets of `points` Kronecker points, which fill the
 /// cube evenly in all its dimensions together (Cranley & Patterson 1976).
 pub fn replicates<const D: usize>(seed: u64, points: u64, mut f: impl FnMut([f32; D]) -> f64) -> Moments {
+    let [m] = replicates_each(seed, points, |u| [f(u)]);
+    m
+}
+
+/// Means of several functions over the same points.
+pub fn replicates_each<const D: usize, const K: usize>(
+    seed: u64,
+    points: u64,
+    mut f: impl FnMut([f32; D]) -> [f64; K],
+) -> [Moments; K] {
     let steps = steps::<D>();
-    let mean = |replicate: u64| {
+    let mut moments = [Moments::new(); K];
+    for replicate in 0..REPLICATES {
         let mut s = Sampler::new(Kind::Independent, seed, [0, 0], replicate, 1);
         let shift: [f64; D] = std::array::from_fn(|_| f64::from(s.next_1d()));
-        let one = |i: u64| {
-            f(std::array::from_fn(|k| ((shift[k] + i as f64 * steps[k]).fract() as f32).min(ONE_MINUS_EPSILON)))
-        };
-        (0..points).map(one).sum::<f64>() / points as f64
-    };
-    (0..REPLICATES).map(mean).collect()
+        let mut sum = [0.0; K];
+        for i in 0..points {
+            let place = |k: usize| ((shift[k] + i as f64 * steps[k]).fract() as f32).min(ONE_MINUS_EPSILON);
+            let value = f(std::array::from_fn(place));
+            sum.iter_mut().zip(value).for_each(|(sum, value)| *sum += value);
+        }
+        moments.iter_mut().zip(sum).for_each(|(m, sum)| m.push(sum / points as f64));
+    }
+    moments
 }
 
 /// The mean of `f` with as many points as it takes to detect a relative bias of `aim` against `exact`, at most
@@ -43,12 +57,25 @@ pub fn to_detect<const D: usize>(
     most: u64,
     mut f: impl FnMut([f32; D]) -> f64,
 ) -> Moments {
+    let [m] = to_detect_each(trial, [exact], aim, most, |u| [f(u)]);
+    m
+}
+
+/// Means of several functions over the same points: as many as the worst of them takes.
+pub fn to_detect_each<const D: usize, const K: usize>(
+    trial: &Trial,
+    exact: [f64; K],
+    aim: f64,
+    most: u64,
+    mut f: impl FnMut([f32; D]) -> [f64; K],
+) -> [Moments; K] {
     const PILOT: u64 = 256;
-    let pilot = replicates(trial.seed ^ 0x5049_4c4f_54, PILOT, &mut f);
-    let ratio = SE_PER_DETECTED * pilot.standard_error() / (aim * exact.abs());
+    let pilot = replicates_each(trial.seed ^ 0x5049_4c4f_54, PILOT, &mut f);
+    let ratio = |k: usize| SE_PER_DETECTED * pilot[k].standard_error() / (aim * exact[k].abs());
+    let ratio = (0..K).map(ratio).fold(0.0, f64::max);
     // The pilot's own error of the error: a fifth more.
     let points = (1.2 * PILOT as f64 * ratio * ratio).clamp(PILOT as f64, most.max(PILOT) as f64);
-    replicates(trial.seed, points as u64, f)
+    replicates_each(trial.seed, points as u64, f)
 }
 
 #[cfg(test)]

@@ -10,10 +10,12 @@
 //! | [`battery`] | the tasks that check this crate |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`report`] | what a run found |
+//! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
 
 pub mod battery;
 pub mod measure;
 pub mod report;
+pub mod scattering;
 mod task;
 
 pub use report::{Report, Section};

@@ -58,6 +58,13 @@ pub struct Findings {
     pub words: Vec<String>,
 }
 
+impl Findings {
+    /// Nothing found yet.
+    pub fn new(name: impl Into<String>) -> Self {
+        Self { checks: Family::new(name), exhibits: Vec::new(), words: Vec::new() }
+    }
+}
+
 /// Something to look at in a report.
 #[derive(Clone, Debug)]
 pub enum Exhibit {
@@ -162,7 +169,7 @@ pub fn run(tasks: &[Task], size: Size, seed: u64, alpha: f64, progress: &(dyn Fn
     let done = AtomicUsize::new(0);
     let one = |task: &Task| {
         let begin = Instant::now();
-        let mut findings = Findings { checks: Family::new(task.name()), exhibits: Vec::new(), words: Vec::new() };
+        let mut findings = Findings::new(task.name());
         (task.work)(&Trial { seed: stream(seed, &task.name()), size }, &mut findings);
         progress(&Progress { done: done.fetch_add(1, Ordering::Relaxed) + 1, total: tasks.len(), last: task });
         Section {

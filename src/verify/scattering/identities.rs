@@ -1,0 +1,103 @@
+//! What must hold of every draw and every pair of directions, up to rounding.
+
+use super::{Density, Rgb, Scattering};
+use crate::sampler::{Kind, Sampler};
+use crate::verify::{Findings, Trial};
+use crate::warp::uniform_sphere;
+use glam::DVec3;
+
+/// Draws, or pairs of directions, that are looked at.
+const LOOKS: u64 = 3000;
+
+/// Numbers of one look.
+fn stream(trial: &Trial, salt: u32, i: u64) -> Sampler {
+    Sampler::new(Kind::Independent, trial.seed, [salt, 1], i, 1)
+}
+
+fn numbers(s: &mut Sampler) -> [f32; 3] {
+    let [u, v] = s.next_2d();
+    [s.next_1d(), u, v]
+}
+
+fn uniform(s: &mut Sampler) -> DVec3 {
+    uniform_sphere(s.next_2d()).as_dvec3().normalize()
+}
+
+fn largest(x: Rgb) -> f64 {
+    x.into_iter().fold(0.0, |a, b| if b.is_nan() { b } else { f64::max(a, b) })
+}
+
+/// True of radiance: finite and not negative.
+fn sound(x: Rgb) -> bool {
+    x.iter().all(|x| x.is_finite() && *x >= 0.0)
+}
+
+/// Largest relative difference of two values, to the larger of all of them.
+fn difference(a: Rgb, b: Rgb) -> f64 {
+    let scale = largest(a).max(largest(b));
+    if scale == 0.0 { 0.0 } else { largest(std::array::from_fn(|k| (a[k] - b[k]).abs())) / scale }
+}
+
+/// Of draws towards `wo`: `sample().pdf` = `pdf(wi)`, weight = f |cos|/pdf, both within `rounding`; and a census of
+/// what is negative, no number, or no direction. Of uniform directions: f > 0 only where pdf > 0, for else light is
+/// lost.
+pub fn draws(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scattering, wo: DVec3, rounding: f64) {
+    let (mut pdf_off, mut weight_off) = (0f64, 0f64);
+    let (mut bad, mut unreached, mut continuous) = (0, 0, 0);
+    for i in 0..trial.pick(LOOKS, 10 * LOOKS) {
+        let mut u = stream(trial, 2, i);
+        if let Some(draw) = s.sample(wo, numbers(&mut u)) {
+            let unit = (draw.wi.length() - 1.0).abs() < 1e-4;
+            match draw.density {
+                Density::SolidAngle(pdf) => {
+                    continuous += 1;
+                    let (f, again) = s.both(wo, draw.wi);
+                    let weight = f.map(|f| f * draw.wi.z.abs() / again);
+                    bad += u32::from(!(unit && sound(draw.weight) && sound(f) && pdf > 0.0 && pdf.is_finite()));
+                    pdf_off = pdf_off.max((pdf - again).abs() / pdf.max(again));
+                    weight_off = weight_off.max(difference(draw.weight, weight));
+                }
+                Density::Discrete(p) => bad += u32::from(!(unit && sound(draw.weight) && p > 0.0 && p <= 1.0)),
+            }
+        }
+        let wi = uniform(&mut u);
+        let (f, pdf) = s.both(wo, wi);
+        bad += u32::from(!(sound(f) && pdf >= 0.0 && pdf.is_finite()));
+        unreached += u32::from(pdf == 0.0 && largest(f) * wi.z.abs() > 1e-6);
+    }
+    found.checks.holds(format!("{name}: no NaN, infinity or negative value"), bad == 0);
+    found.checks.holds(format!("{name}: no light where nothing is drawn"), unreached == 0);
+    if continuous > 0 {
+        found.checks.bound(format!("{name}: sample().pdf = pdf(wi)"), pdf_off, rounding);
+        found.checks.bound(format!("{name}: weight = f cos/pdf"), weight_off, rounding);
+    }
+    if bad > 0 {
+        found.words.push(format!("{name}: {bad} draws or values are negative or no numbers"));
+    }
+    if unreached > 0 {
+        found.words.push(format!("{name}: {unreached} directions are lit but never drawn"));
+    }
+}
+
+/// f(a → b)/η_b² = f(b → a)/η_a² within `rounding`, for directions drawn and for uniform pairs on one side.
+pub fn reciprocity(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scattering, rounding: f64) {
+    let (mut worst, mut compared) = (0f64, 0);
+    let mut compare = |a: DVec3, b: DVec3, eta: f64| {
+        let (ab, ba) = (s.eval(a, b), s.eval(b, a).map(|f| f * eta * eta));
+        worst = worst.max(difference(ab, ba));
+        compared += u32::from(largest(ab).max(largest(ba)) > 0.0);
+    };
+    for i in 0..trial.pick(LOOKS, 10 * LOOKS) {
+        let mut u = stream(trial, 3, i);
+        let (a, b) = (uniform(&mut u), uniform(&mut u));
+        if let Some(draw) = s.sample(a, numbers(&mut u)) {
+            if matches!(draw.density, Density::SolidAngle(_)) {
+                compare(a, draw.wi, draw.eta);
+            }
+        }
+        compare(a, if a.z * b.z < 0.0 { -b } else { b }, 1.0);
+    }
+    if compared > 0 {
+        found.checks.bound(format!("{name}: reciprocal in {compared} pairs"), worst, rounding);
+    }
+}
