@@ -8,10 +8,12 @@
 //! | module | what it makes |
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
+//! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`report`] | what a run found |
 
 pub mod battery;
+pub mod chart;
 pub mod measure;
 pub mod report;
 mod task;
