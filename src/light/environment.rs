@@ -48,6 +48,11 @@ impl Environment {
         }
     }
 
+    /// Whether it has no image: the same radiance from everywhere.
+    pub fn is_uniform(&self) -> bool {
+        self.texels.is_none()
+    }
+
     /// Lₑ \[W·sr⁻¹·m⁻²\] that arrives from the unit vector `wi`.
     #[inline]
     pub fn le(&self, wi: Vec3) -> Spectrum {

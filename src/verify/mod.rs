@@ -8,11 +8,13 @@
 //! | module | what it makes |
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
+//! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`report`] | what a run found |
 //! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
 
 pub mod battery;
+pub mod chart;
 pub mod measure;
 pub mod report;
 pub mod scattering;

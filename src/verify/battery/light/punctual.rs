@@ -1,0 +1,78 @@
+//! L1: lights without extent.
+//!
+//! E = I cosθ/r² of a point; of a spot the same times the fall-off of KHR_lights_punctual,
+//! clamp((cos γ − cos outer)/(cos inner − cos outer), 0, 1)² at the angle γ from its axis; E⊥ cosθ of parallel light. Nothing is
+//! random: agreement to rounding.
+
+use super::{random_direction, rng};
+use crate::desc;
+use crate::light::Light;
+use crate::texture::Textures;
+use crate::verify::{Findings, Task, Topic, Trial};
+
+pub(super) const L1: Topic = Topic {
+    id: "L1",
+    title: "point light: E = I cosθ/r²",
+    source: "inverse square law; fall-off of spots: glTF KHR_lights_punctual",
+};
+
+pub(super) fn tasks() -> Vec<Task> {
+    vec![
+        Task::new(L1, "point, spot and directional light by light sampling", poses),
+        Task::new(L1, "flux of spot lights", flux_of_spots),
+    ]
+}
+
+/// Poses at scales from a millimetre to a kilometre. Deviations are relative to the irradiance on a surface that faces
+/// the light.
+fn poses(trial: &Trial, found: &mut Findings) {
+    let mut rng = rng(trial.seed);
+    let mut worst = [0f64; 3];
+    for i in 0..trial.pick(700, 10_000) {
+        let scale = 10f32.powi(i % 7 - 3);
+        let (position, p) = (random_direction(&mut rng) * scale, random_direction(&mut rng) * (0.7 * scale));
+        let (n, direction) = (random_direction(&mut rng), random_direction(&mut rng));
+        let to = position.as_dvec3() - p.as_dvec3();
+        let cos = to.normalize().dot(n.as_dvec3()).max(0.0);
+        let (intensity, inner, outer) = ([2.0; 3], 0.5, 2.5);
+        let along = -to.normalize().dot(direction.as_dvec3());
+        let (cos_inner, cos_outer) = (f64::from(inner).cos(), f64::from(outer).cos());
+        let falloff = ((along - cos_outer) / (cos_inner - cos_outer)).clamp(0.0, 1.0).powi(2);
+        let facing = 2.0 / to.length_squared();
+        let lights = [
+            (desc::Light::Point { position, intensity }, facing, facing * cos),
+            (desc::Light::Spot { position, direction, intensity, inner, outer }, facing, facing * cos * falloff),
+            (
+                desc::Light::Directional { direction, irradiance: intensity },
+                2.0,
+                2.0 * f64::from(-n.dot(direction)).max(0.0),
+            ),
+        ];
+        for (worst, (light, facing, exact)) in worst.iter_mut().zip(lights) {
+            let sample = Light::from_desc(&light).sample(p, [0.5; 2], &Textures::default());
+            let e = sample.map_or(0.0, |s| f64::from(s.le.0.x) * f64::from(n.dot(s.wi).max(0.0)));
+            *worst = worst.max((e - exact).abs() / facing);
+        }
+    }
+    // The distance is that of rounded coordinates: some ulp of the greater of them, which the nearest pose is a fifth of.
+    for (name, worst) in ["point", "spot", "directional"].into_iter().zip(worst) {
+        found.checks.bound(name, worst, 2e-5);
+    }
+}
+
+/// Φ = 2π I ((1 − cos inner) + (cos inner − cos outer)/3): what [`Light::power`] says against ∫ E r² dω, with θ
+/// stratified.
+fn flux_of_spots(trial: &Trial, found: &mut Findings) {
+    use crate::verify::measure::to_detect;
+    use glam::Vec3;
+    for (inner, outer) in [(0.0, 1.0), (0.5, 0.9), (0.7, 0.7), (1.5, 3.1)] {
+        let written = desc::Light::Spot { position: Vec3::ZERO, direction: Vec3::Y, intensity: [2.0; 3], inner, outer };
+        let spot = Light::from_desc(&written);
+        let power = f64::from(spot.power(2.0, &|_| glam::Vec4::ONE).0.x);
+        let flux = to_detect(trial, power, 1e-3, 1 << 12, |u| {
+            let sample = spot.sample(crate::warp::uniform_sphere(u), [0.5; 2], &Textures::default());
+            4.0 * std::f64::consts::PI * sample.map_or(0.0, |s| f64::from(s.le.0.x))
+        });
+        found.checks.replicated(format!("{inner} to {outer}"), power, &flux, 1e-6);
+    }
+}
