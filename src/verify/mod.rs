@@ -8,12 +8,20 @@
 //! | module | what it makes |
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
+//! | [`expect`] | a scene that carries its exact answer |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
+//! | [`picture`] | what a failing image looks like |
+//! | [`replicated`] | images in independent replicates |
 //! | [`report`] | what a run found |
+//! | [`scenes`] | the scene files of the crate, held in the binary |
 
 pub mod battery;
+pub mod expect;
 pub mod measure;
+pub mod picture;
+pub mod replicated;
 pub mod report;
+pub mod scenes;
 mod task;
 
 pub use report::{Report, Section};
