@@ -19,21 +19,34 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(fail)
 }
 
+/// Files in memory: names with `/` between parts, and contents.
+pub type Held = &'static [(&'static str, &'static [u8])];
+
 /// The folder of the scene file `scene`, in which everything that it refers to must lie.
 #[derive(Clone, Debug)]
 pub struct Folder {
     scene: PathBuf,
+    held: Option<Held>,
 }
 
 impl Folder {
     /// The folder of this scene file.
     pub fn of(scene: &Path) -> Self {
-        Self { scene: scene.into() }
+        Self { scene: scene.into(), held: None }
+    }
+
+    /// The folder of this scene file among files in memory.
+    pub fn held(scene: &Path, files: Held) -> Self {
+        Self { scene: scene.into(), held: Some(files) }
     }
 
     /// The file that the scene calls `name` (relative, `/` between parts), or an error that names `place` in the
     /// scene file. Links are followed before the check that it lies inside the folder.
     pub fn resolve(&self, name: &str, place: &str) -> Result<PathBuf, Error> {
+        if self.held.is_some() {
+            let message = format!("`{name}`: geometry is read from files, not from memory");
+            return Err(Error::unsupported(&self.scene, place, message));
+        }
         let folder = match self.scene.parent() {
             Some(p) if !p.as_os_str().is_empty() => p,
             _ => Path::new("."),
@@ -50,6 +63,12 @@ impl Folder {
 
     /// Reads the file that the scene calls `name`.
     pub fn read(&self, name: &str, place: &str) -> Result<Vec<u8>, Error> {
+        if let Some(files) = self.held {
+            let folder = self.scene.parent().unwrap_or(Path::new(""));
+            let found = files.iter().find(|(held, _)| folder.join(name) == Path::new(held));
+            let missing = || Error::missing(&self.scene, place, format!("`{name}` is not among the files in memory"));
+            return found.map(|(_, bytes)| bytes.to_vec()).ok_or_else(missing);
+        }
         let path = self.resolve(name, place)?;
         read(&path).map_err(|e| Error {
             message: format!("`{name}`: {}", e.message),

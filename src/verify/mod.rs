@@ -9,15 +9,23 @@
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
 //! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
+//! | [`expect`] | a scene that carries its exact answer |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
+//! | [`picture`] | what a failing image looks like |
+//! | [`replicated`] | images in independent replicates |
 //! | [`report`] | what a run found |
 //! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
+//! | [`scenes`] | the scene files of the crate, held in the binary |
 
 pub mod battery;
 pub mod chart;
+pub mod expect;
 pub mod measure;
+pub mod picture;
+pub mod replicated;
 pub mod report;
 pub mod scattering;
+pub mod scenes;
 mod task;
 
 pub use report::{Report, Section};

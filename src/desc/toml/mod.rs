@@ -83,7 +83,12 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 
 /// The scene that `text` describes. Files that it names are looked for in the folder of `path`; errors name `path`.
 pub fn parse(text: &str, path: &Path) -> Result<Scene, Error> {
-    let scene = tables(text).and_then(|file| build::Builder::new(&file, Folder::of(path)).build());
+    parse_in(text, path, Folder::of(path))
+}
+
+/// The scene that `text` describes. Files that it names are looked for in `folder`; errors name `path`.
+pub fn parse_in(text: &str, path: &Path, folder: Folder) -> Result<Scene, Error> {
+    let scene = tables(text).and_then(|file| build::Builder::new(&file, folder).build());
     let mut scene = scene.map_err(|fault| fault.locate(path, text))?;
     if scene.name.is_empty() {
         scene.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
