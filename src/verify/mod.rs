@@ -10,10 +10,12 @@
 //! | [`battery`] | the tasks that check this crate |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`report`] | what a run found |
+//! | [`scene`] | the tasks that check a scene file |
 
 pub mod battery;
 pub mod measure;
 pub mod report;
+pub mod scene;
 mod task;
 
 pub use report::{Report, Section};
