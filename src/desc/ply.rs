@@ -27,8 +27,15 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Scene, Error> {
     let reflectance = ColorParam { vertex_color: true, ..ColorParam::constant([0.5; 3]) };
     let factor = if mesh.colors.is_empty() { reflectance.factor } else { [1.0; 3] };
     let material = Material::new("default", Model::Diffuse { reflectance: ColorParam { factor, ..reflectance } });
-    let object =
-        Object { name: name.clone(), shape: 0, to_world: Mat4::IDENTITY, material: 0, emission: None, reversed: false };
+    let object = Object {
+        name: name.clone(),
+        shape: 0,
+        to_world: Mat4::IDENTITY,
+        material: 0,
+        emission: None,
+        reversed: false,
+        closed: false,
+    };
     let mut scene = Scene { name, source: Some(path.into()), ..Scene::default() };
     scene.shapes.push(Shape::Mesh(mesh));
     scene.objects.push(object);

@@ -72,4 +72,6 @@ pub struct Object {
     pub emission: Option<Emission>,
     /// Normals point to the other side.
     pub reversed: bool,
+    /// The author declares that it bounds a volume, alone or with its neighbours of the same name and place.
+    pub closed: bool,
 }

@@ -15,6 +15,7 @@
 //! | [`replicated`] | images in independent replicates |
 //! | [`report`] | what a run found |
 //! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
+//! | [`scene`] | the tasks that check a scene file |
 //! | [`scenes`] | the scene files of the crate, held in the binary |
 
 pub mod battery;
@@ -25,6 +26,7 @@ pub mod picture;
 pub mod replicated;
 pub mod report;
 pub mod scattering;
+pub mod scene;
 pub mod scenes;
 mod task;
 

@@ -98,6 +98,8 @@ impl Reader<'_> {
                 self.notes.at(place, "objects that are scaled to nothing are left out");
             } else {
                 self.budget.decode(self.source, place, parts.len(), size_of::<Object>() + 64)?;
+                let of_file = self.source.root.meshes.get(mesh).map(|m| &m.extras);
+                let closed = [Some(&node.extras), of_file].into_iter().flatten().any(declares_closed);
                 let of_mesh = || self.source.root.meshes.get(mesh).and_then(|m| m.name.clone());
                 let name = node.name.clone().or_else(of_mesh).unwrap_or_else(|| format!("node {index}"));
                 self.scene.objects.extend(parts.iter().map(|part| Object {
@@ -107,6 +109,7 @@ impl Reader<'_> {
                     material: part.material,
                     emission: None,
                     reversed: false,
+                    closed,
                 }));
             }
         }
@@ -118,6 +121,12 @@ impl Reader<'_> {
         }
         Ok(())
     }
+}
+
+/// Whether a node or mesh says `"extras": {"closed": true}`: its surface bounds a volume.
+fn declares_closed(extras: &json::Extras) -> bool {
+    let extras: Option<serde_json::Value> = extras.as_ref().and_then(|raw| serde_json::from_str(raw.get()).ok());
+    extras.is_some_and(|extras| extras.get("closed") == Some(&serde_json::Value::Bool(true)))
 }
 
 /// A node to be visited.

@@ -243,6 +243,7 @@ impl<'a> Reader<'a> {
             material,
             emission: None,
             reversed: false,
+            closed: false,
         });
         Ok(())
     }

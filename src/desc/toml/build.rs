@@ -112,7 +112,7 @@ impl<'a> Builder<'a> {
 
     /// Adds one shape, or what its file has.
     fn shape(&mut self, shape: &'a ShapeTable, at: &Range<usize>, part: &mut Part) -> Result<(), Fault> {
-        let ShapeTable { name, material, emission, emission_sides, reversed, place, kind } = shape;
+        let ShapeTable { name, material, emission, emission_sides, reversed, closed, place, kind } = shape;
         let to_parent = place.matrix(at)?;
         let material = material.as_ref().map(|m| self.material(m)).transpose()?;
         let emission = match emission {
@@ -125,6 +125,7 @@ impl<'a> Builder<'a> {
             for object in &mut content.objects {
                 object.emission = emission.or(object.emission);
                 object.reversed ^= reversed;
+                object.closed |= closed;
             }
             let name = (!name.is_empty()).then_some(name.as_str());
             return part.add(&content, to_parent, material, name, &f.file.at, &mut self.placed);
@@ -146,6 +147,7 @@ impl<'a> Builder<'a> {
             material,
             emission,
             reversed: *reversed,
+            closed: *closed,
         });
         Ok(())
     }

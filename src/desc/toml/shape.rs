@@ -22,6 +22,8 @@ keys! {
         emission_sides: Sides = Sides::Front,
         /// Turns the front to the other side. Default false.
         reversed: bool = false,
+        /// Declares that the surface is closed, so that verification looks for holes and leaks. Default false.
+        closed: bool = false,
         ..place: Place,
         ..kind: ShapeKind,
     }

@@ -1,0 +1,73 @@
+//! A scene file under test: everything that its author may have got wrong, and everything that this crate may get
+//! wrong with it.
+//!
+//! | topic | what must hold |
+//! | --- | --- |
+//! | [`data`](self) | numbers are what readers promise; what is odd but survives is said in words |
+//! | `normals` | shading frames are usable; triangles against their normals are counted |
+//! | `leaks` | no ray gets out of a surface that is closed |
+//! | `furnace` | in a uniform environment no pixel is brighter than it, and with everything made white none darker |
+//! | `census` | no sample is NaN, infinite or negative |
+//!
+//! Defects of the data that the renderer survives are words, and their checks pass; energy out of nothing, samples that
+//! are no radiance, leaks and disagreement fail.
+
+mod census;
+mod data;
+mod furnace;
+mod leaks;
+mod normals;
+mod one_sided;
+mod surfaces;
+mod topology;
+mod view;
+mod white;
+
+use super::Task;
+use crate::desc;
+use crate::scene::Scene;
+use std::collections::HashMap;
+use std::sync::Arc;
+
+/// A scene as written and as traced.
+#[derive(Clone)]
+struct Subject {
+    desc: Arc<desc::Scene>,
+    scene: Arc<Scene>,
+}
+
+/// Every check of a scene: `desc` as written (and completed: [`desc::load`]), `scene` compiled from it. The names of the
+/// tasks, and so their numbers, depend on the scene alone.
+pub fn tasks(desc: &Arc<desc::Scene>, scene: &Arc<Scene>) -> Vec<Task> {
+    let subject = Subject { desc: desc.clone(), scene: scene.clone() };
+    let parts: [fn(&Subject) -> Vec<Task>; 5] =
+        [data::tasks, normals::tasks, leaks::tasks, furnace::tasks, census::tasks];
+    parts.iter().flat_map(|part| part(&subject)).collect()
+}
+
+/// Names that no two of a list share: empty ones become `what NUMBER`, repeated ones get their number behind.
+fn unique<'a>(names: impl Iterator<Item = &'a str>, what: &str) -> Vec<String> {
+    let mut seen: HashMap<String, ()> = HashMap::new();
+    let name = |(i, name): (usize, &str)| {
+        let plain = if name.is_empty() { format!("{what} {i}") } else { name.to_owned() };
+        let free = if seen.contains_key(&plain) { format!("{plain} #{i}") } else { plain };
+        seen.insert(free.clone(), ());
+        free
+    };
+    names.enumerate().map(name).collect()
+}
+
+/// A count with its noun: `1 triangle`, `3 triangles`.
+fn count(n: usize, noun: &str) -> String {
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_are_made_unique() {
+        assert_eq!(unique(["a", "", "a", "b"].into_iter(), "mesh"), ["a", "mesh 1", "a #2", "b"]);
+    }
+}
