@@ -80,6 +80,15 @@ pub(crate) fn finite(text: &str) -> Result<f64, String> {
     text.parse().ok().filter(|x: &f64| x.is_finite()).ok_or_else(|| format!("`{text}` is no finite number"))
 }
 
+/// A significance: what lies between impossible and certain.
+pub(crate) fn significance(text: &str) -> Result<f64, String> {
+    let inside = |p: &f64| *p > 0.0 && *p < 1.0;
+    text.parse()
+        .ok()
+        .filter(inside)
+        .ok_or_else(|| format!("`{text}` is no probability between 0 and 1, for example 1e-4"))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -94,6 +103,14 @@ mod tests {
         for wrong in ["", "s", "5x", "1m2h", "1m1m", "-5s", "0s", "1e400s", "..s", "5 s", "5µ", "99999999999999999999h"]
         {
             assert!(duration(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn significances() {
+        assert_eq!(significance("1e-4"), Ok(1e-4));
+        for wrong in ["0", "1", "-0.1", "nan", "inf", "", "p"] {
+            assert!(significance(wrong).is_err(), "{wrong}");
         }
     }
 

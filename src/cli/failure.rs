@@ -10,14 +10,14 @@ use std::path::PathBuf;
 pub(crate) const HELP: &str = "\
 Exit codes:
     0  done
-    1  comparison failed
+    1  comparison or verification failed
     2  usage: arguments that are wrong or do not fit the scene
     3  bad scene or image: its content is wrong
     4  missing: a scene, or a file that it refers to, cannot be read
     5  unsupported: valid, but asks for what is not honoured
     6  output not writable
    75  interrupted: the image is valid and written, with fewer samples than asked for
-  130  interrupted twice, or before the first pass: nothing was written";
+  130  interrupted twice, before the first pass, or during a verification: nothing was written";
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, thiserror::Error)]
@@ -25,6 +25,9 @@ pub(crate) enum Failure {
     /// `compare` found too much.
     #[error("{0}")]
     Comparison(String),
+    /// `verify` found checks that fail.
+    #[error("{0}")]
+    Verification(String),
     /// Arguments that are wrong or do not fit the scene.
     #[error("{0}")]
     Usage(String),
@@ -40,6 +43,9 @@ pub(crate) enum Failure {
     /// The render ended before its first pass.
     #[error("interrupted before the first pass; nothing was written")]
     Nothing,
+    /// A verification ended early at the user's wish.
+    #[error("interrupted; nothing was written")]
+    Abandoned,
     /// The render ended early at the user's wish; the image is there.
     #[error("interrupted after {taken} of {asked}; the image holds what was taken")]
     Interrupted {
@@ -54,7 +60,7 @@ impl Failure {
     /// The process's exit code.
     pub(crate) fn code(&self) -> u8 {
         match self {
-            Self::Comparison(_) => 1,
+            Self::Comparison(_) | Self::Verification(_) => 1,
             Self::Usage(_) => 2,
             Self::Scene(e) => match e.kind {
                 desc::ErrorKind::Invalid => 3,
@@ -66,7 +72,7 @@ impl Failure {
             Self::Image(_, ReadError::Unsupported(_)) => 5,
             Self::Output(..) => 6,
             Self::Interrupted { .. } => 75,
-            Self::Nothing => 130,
+            Self::Nothing | Self::Abandoned => 130,
         }
     }
 

@@ -5,9 +5,12 @@ mod compare;
 mod environment;
 mod failure;
 mod info;
+mod interrupt;
+mod meter;
 mod progress;
 mod render;
 mod settings;
+mod verify;
 
 pub(crate) use failure::Failure;
 
@@ -29,6 +32,8 @@ enum Command {
     Info(info::Arguments),
     /// Compare two EXR images: errors, bias and its z
     Compare(compare::Arguments),
+    /// Prove the estimator: closed forms, densities, reciprocity, energy, agreement of estimators
+    Verify(verify::Arguments),
 }
 
 /// Does what the arguments say.
@@ -37,6 +42,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
         Command::Render(arguments) => render::run(arguments),
         Command::Info(arguments) => info::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
+        Command::Verify(arguments) => verify::run(arguments),
     }
 }
 

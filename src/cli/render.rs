@@ -1,9 +1,9 @@
 //! `radianza render SCENE`.
 
 use super::args::{self, Replay};
-use super::progress::{self, Report};
+use super::progress::{Report, speed};
 use super::settings::{self, Choices};
-use super::{Failure, environment};
+use super::{Failure, environment, interrupt, meter};
 use radianza::desc::{self, Filter, Integrator, SamplerKind, Strategy, Tonemap};
 use radianza::film::exr::write_exr;
 use radianza::film::file::check_writable;
@@ -12,8 +12,7 @@ use radianza::film::{Header, LayerKind, Origin, develop};
 use radianza::render::{self, Output, Settings};
 use radianza::scene::Scene;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 use std::time::Duration;
 
 /// Bad samples that are listed one by one.
@@ -113,7 +112,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
 
     // Render; know before that the result can be kept.
-    let stop = stop_on_signals();
+    let stop = interrupt::after_the_pass();
     let [exr, png] = outputs(arguments);
     for path in [&exr, &png] {
         check_writable(path).map_err(|e| Failure::Output(path.clone(), e))?;
@@ -179,22 +178,6 @@ fn outputs(arguments: &Arguments) -> [PathBuf; 2] {
     [exr, png]
 }
 
-/// True once the user or the system wants an end. A second wish is granted at once.
-fn stop_on_signals() -> Arc<AtomicBool> {
-    let stop = Arc::new(AtomicBool::new(false));
-    let flag = Arc::clone(&stop);
-    let handler = move || {
-        if flag.swap(true, Ordering::Relaxed) {
-            std::process::exit(130);
-        }
-        eprintln!("note: ending after the running pass; interrupt again to quit at once");
-    };
-    if ctrlc::set_handler(handler).is_err() {
-        eprintln!("note: interrupts are not caught; one will lose the image");
-    }
-    stop
-}
-
 /// Says where samples were not numbers, however quiet: the image counts them as 0.
 fn name_bad_samples(output: &Output) {
     if output.bad_count == 0 {
@@ -210,11 +193,8 @@ fn summary(settings: &Settings, output: &Output, files: &[PathBuf]) {
     let ([w, h], spp) = (settings.size, output.samples_per_pixel);
     let [x0, y0, x1, y1] = settings.crop;
     let samples = u64::from(x1 - x0) * u64::from(y1 - y0) * u64::from(spp);
-    let time = progress::time(output.elapsed.as_secs_f64());
-    eprintln!(
-        "{w}×{h} pixels, {spp} samples each, in {time}: {}",
-        progress::speed(samples, output.rays, output.elapsed)
-    );
+    let time = meter::time(output.elapsed.as_secs_f64());
+    eprintln!("{w}×{h} pixels, {spp} samples each, in {time}: {}", speed(samples, output.rays, output.elapsed));
     let error = output.film.relative_error();
     if error.is_finite() {
         let replicates = spp / settings.replicate;

@@ -1,0 +1,127 @@
+//! `radianza verify`.
+
+mod outputs;
+mod select;
+
+use outputs::Outputs;
+use select::{list, select};
+
+use super::meter::{Meter, left, time};
+use super::{Failure, args, interrupt};
+use radianza::stats::ALPHA;
+use radianza::verify::report::text::{self, Detail};
+use radianza::verify::report::{About, count};
+use radianza::verify::{self, Report, Size, Task, battery};
+use std::io::{self, Write};
+use std::path::PathBuf;
+use std::time::Instant;
+
+/// Prove the estimator: every check is a hypothesis test that can fail, and all of them share one significance.
+#[derive(clap::Args, Debug)]
+pub(crate) struct Arguments {
+    /// A quarter of an hour of two cores instead of a minute: more members, smaller detectable biases
+    #[arg(long)]
+    thorough: bool,
+    /// Print the names of what would be checked, one a line, and check nothing; with -v, what each topic means
+    #[arg(long)]
+    list: bool,
+    /// Check only what has PATTERN in its name, in upper or lower case; may be given more than once
+    #[arg(long, value_name = "PATTERN")]
+    only: Vec<String>,
+    /// Seed of all random numbers
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    seed: u64,
+    /// Probability that correct code fails the run, shared by all its checks
+    #[arg(long, value_name = "P", default_value_t = ALPHA, value_parser = args::significance)]
+    alpha: f64,
+    /// Threads; 0: all cores. Changes nothing in the findings
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    threads: usize,
+    /// Write the findings as JSON; `-` is stdout, in place of the table
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Write them as JUnit XML, which CI systems show
+    #[arg(long, value_name = "FILE")]
+    junit: Option<PathBuf>,
+    /// Write them as a page of its own with curves, maps and pictures
+    #[arg(long, value_name = "FILE")]
+    html: Option<PathBuf>,
+    /// Print every check, not the least likely of each subject
+    #[arg(short, long, conflicts_with = "quiet")]
+    verbose: bool,
+    /// No progress; print only what fails
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Checks, prints, writes; fails where a check does.
+pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let tasks = select(battery::tasks(), &arguments.only)?;
+    if arguments.list {
+        return print(&list(&tasks, arguments.verbose));
+    }
+
+    // Know before that the findings can be kept.
+    let outputs = Outputs::new(arguments)?;
+    interrupt::at_once();
+    let report = check(&tasks, arguments)?;
+    outputs.write(&report, &about(arguments))?;
+    if !outputs.take_stdout() {
+        print(&text::table(&report, detail(arguments)))?;
+    }
+    verdict(&report)
+}
+
+fn check(tasks: &[Task], arguments: &Arguments) -> Result<Report, Failure> {
+    let size = if arguments.thorough { Size::Thorough } else { Size::Default };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
+    let pool = pool.map_err(|e| Failure::Usage(format!("{} threads: {e}", arguments.threads)))?;
+    let (start, meter) = (Instant::now(), Meter::new(arguments.quiet));
+    let news = |progress: &verify::Progress| {
+        let (elapsed, fraction) = (start.elapsed(), progress.done as f64 / progress.total as f64);
+        meter.update(elapsed, fraction, || {
+            let left = time(left(elapsed, fraction));
+            format!("{} of {}, about {left} left: {}", progress.done, progress.total, progress.last.name())
+        });
+    };
+    let report = pool.install(|| verify::run(tasks, size, arguments.seed, arguments.alpha, &news));
+    meter.finish();
+    Ok(report)
+}
+
+fn detail(arguments: &Arguments) -> Detail {
+    match (arguments.verbose, arguments.quiet) {
+        (true, _) => Detail::All,
+        (_, true) => Detail::Failures,
+        _ => Detail::Worst,
+    }
+}
+
+/// What was run, and the command that does it again.
+fn about(arguments: &Arguments) -> About {
+    let mut command = format!("radianza verify --seed {} --alpha {}", arguments.seed, arguments.alpha);
+    if arguments.thorough {
+        command += " --thorough";
+    }
+    for pattern in &arguments.only {
+        command += &format!(" --only '{}'", pattern.replace('\'', r"'\''"));
+    }
+    About { what: "Radianza itself".into(), command }
+}
+
+fn verdict(report: &Report) -> Result<(), Failure> {
+    let (all, failures) = (report.checks().count(), report.failures().count());
+    match report.passes() {
+        true => Ok(()),
+        false if all == 0 => Err(Failure::Verification("nothing was checked".into())),
+        false => Err(Failure::Verification(format!("{} of {} checks fail", count(failures), count(all)))),
+    }
+}
+
+/// To stdout, with colours where a terminal shows them. Whoever closes the pipe has seen enough.
+fn print(text: &str) -> Result<(), Failure> {
+    match anstream::stdout().lock().write_all(text.as_bytes()) {
+        Err(e) if e.kind() != io::ErrorKind::BrokenPipe => Err(Failure::Output("stdout".into(), e)),
+        _ => Ok(()),
+    }
+}
