@@ -38,6 +38,11 @@ pub struct Trial {
 }
 
 impl Trial {
+    /// The same with a seed for a part of the task, so that its parts share no numbers.
+    pub fn part(&self, name: &str) -> Self {
+        Self { seed: stream(self.seed, name), ..*self }
+    }
+
     /// The one or the other, by size.
     pub fn pick<T>(&self, default: T, thorough: T) -> T {
         match self.size {

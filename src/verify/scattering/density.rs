@@ -21,35 +21,60 @@ pub struct Integrals {
 /// What is granted to quadrature beyond the error it sees.
 const QUADRATURE: f64 = 1e-4;
 
-/// Independent numbers for a draw.
-fn numbers(seed: u64, stream: u32, i: u64) -> [f32; 3] {
-    let mut s = Sampler::new(Kind::Independent, seed, [stream, 0], i, 1);
-    let [u, v] = s.next_2d();
-    [s.next_1d(), u, v]
+/// What has a density towards `wo`: bins on both sides of the surface, and the integrals over them.
+struct Cells {
+    sides: [Bins; 2],
+    /// pdf, and f |cos θ| by lanes.
+    values: [Vec<[f64; 4]>; 2],
+    error: f64,
+}
+
+impl Cells {
+    fn new(trial: &Trial, s: &impl Scattering, wo: DVec3, pilot: u64) -> Self {
+        let pilot: Vec<DVec3> = (0..pilot).filter_map(|i| draw(trial, s, wo, 0, i)).collect();
+        let sides = [1.0, -1.0].map(|side| Bins::new(side, &pilot));
+        let integrals = sides.each_ref().map(|bins| {
+            bins.integrate(|wi| {
+                let (f, pdf) = s.both(wo, wi);
+                let cos = wi.z.abs();
+                [pdf, f[0] * cos, f[1] * cos, f[2] * cos]
+            })
+        });
+        let error = QUADRATURE + 0.1 * integrals.iter().map(|(_, error)| error).sum::<f64>();
+        Self { sides, values: integrals.map(|(values, _)| values), error }
+    }
+
+    fn integrals(&self) -> Integrals {
+        let sum = |k: usize| self.values.iter().flatten().map(|v| v[k]).sum::<f64>();
+        Integrals { pdf: sum(0), albedo: [sum(1), sum(2), sum(3)], error: self.error }
+    }
+}
+
+/// Direction of the `i`-th draw, where it has a density.
+fn draw(trial: &Trial, s: &impl Scattering, wo: DVec3, stream: u32, i: u64) -> Option<DVec3> {
+    let mut u = Sampler::new(Kind::Independent, trial.seed, [stream, 0], i, 1);
+    let [a, b] = u.next_2d();
+    let draw = s.sample(wo, [u.next_1d(), a, b])?;
+    matches!(draw.density, Density::SolidAngle(_)).then_some(draw.wi)
+}
+
+/// ∫ pdf and ∫ f |cos| towards `wo`, in cells that follow a pilot run of draws.
+pub fn integrals(trial: &Trial, s: &impl Scattering, wo: DVec3) -> Integrals {
+    Cells::new(trial, s, wo, 5_000).integrals()
 }
 
 /// χ² of draws towards `wo` against the integrals of `pdf` over bins that follow a pilot run, and
-/// ∫ pdf + P(delta) + P(failure) = 1. Returns the integrals, which are worth more than this.
+/// ∫ pdf + P(delta) + P(failure) = 1. Returns the integrals.
 pub fn density(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scattering, wo: DVec3) -> Integrals {
-    let draw = |stream, i| {
-        let draw = s.sample(wo, numbers(trial.seed, stream, i))?;
-        matches!(draw.density, Density::SolidAngle(_)).then_some(draw.wi)
-    };
-    let pilot: Vec<DVec3> = (0..20_000).filter_map(|i| draw(0, i)).collect();
-    let sides = [1.0, -1.0].map(|side| Bins::new(side, &pilot));
-    let integrals = sides.each_ref().map(|bins| {
-        bins.integrate(|wi| {
-            let (f, pdf) = s.both(wo, wi);
-            let cos = wi.z.abs();
-            [pdf, f[0] * cos, f[1] * cos, f[2] * cos]
-        })
-    });
+    let cells = Cells::new(trial, s, wo, 20_000);
+    let (sides, integrals) = (&cells.sides, cells.integrals());
 
-    let n: u64 = trial.pick(100_000, 1_000_000);
+    // Count the draws; deltas, failures and whatever lies in the surface are the others.
+    let n: u64 = trial.pick(60_000, 1_000_000);
     let mut observed = sides.each_ref().map(|bins| vec![0.0; bins.len()]);
     let mut others = 0.0;
     for i in 0..n {
-        let place = draw(1, i).and_then(|wi| (0..2).find_map(|k| sides[k].find(wi).map(|bin| (k, bin))));
+        let place = draw(trial, s, wo, 1, i).and_then(|wi| (0..2).find_map(|k| sides[k].find(wi).map(|bin| (k, bin))));
         match place {
             Some((k, bin)) => observed[k][bin] += 1.0,
             None => others += 1.0,
@@ -57,38 +82,33 @@ pub fn density(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scatter
     }
 
     // ∫ pdf against the share of the draws that have a density: a binomial one.
-    let sum = |k: usize| integrals.iter().flat_map(|(values, _)| values).map(|v| v[k]).sum::<f64>();
-    let error = integrals.iter().map(|(_, error)| error).sum::<f64>();
-    let pdf = sum(0);
-    let share = others / n as f64;
-    let se = (share * (1.0 - share) / n as f64).sqrt();
-    let rounding = QUADRATURE + 0.1 * error;
+    let n = n as f64;
+    let share = others / n;
+    let se = (share * (1.0 - share) / n).sqrt();
     found.checks.push(
         format!("{name}: ∫ pdf + deltas + failures"),
-        Evidence::Z { exact: 1.0, estimate: pdf + share, se, dof: f64::INFINITY, rounding },
+        Evidence::Z { exact: 1.0, estimate: integrals.pdf + share, se, dof: f64::INFINITY, rounding: integrals.error },
     );
 
-    // The shape, with the bin of all that has no density.
-    let mut expected =
-        integrals.each_ref().map(|(values, _)| values.iter().map(|v| v[0] * n as f64).collect::<Vec<_>>());
+    // The shape, with a bin of all that has no density; what quadrature got wrong is no fault of the shape.
+    let expected = cells.values.each_ref().map(|values| values.iter().map(|v| v[0] * n).collect::<Vec<_>>());
     let (mut all, mut promised) = (observed.concat(), expected.concat());
-    if others > 1e-4 * n as f64 {
+    if share > 1e-4 {
         all.push(others);
-        promised.push((n as f64 * (1.0 - pdf)).max(0.0));
+        promised.push((n * (1.0 - integrals.pdf)).max(0.0));
     }
-    let total: f64 = promised.iter().sum();
-    if (total / n as f64 - 1.0).abs() <= rounding {
-        // What quadrature got wrong is no fault of the shape.
-        promised.iter_mut().for_each(|e| *e *= n as f64 / total);
+    let total = promised.iter().sum::<f64>() / n;
+    if (total - 1.0).abs() <= integrals.error {
+        promised.iter_mut().for_each(|e| *e /= total);
     }
     found.checks.chi2(format!("{name}: χ²"), chi2_test(&all, &promised, 5.0));
-    for (k, side) in ["", " below"].into_iter().enumerate() {
-        let (observed, expected) = (std::mem::take(&mut observed[k]), std::mem::take(&mut expected[k]));
-        if let Some(columns) = sides[k].width().filter(|_| expected.iter().sum::<f64>() > 1e-3 * n as f64) {
-            let title = format!("{name}{side}");
-            let axes = ["azimuth, quantiles", "cos θ, quantiles"];
+    for ((side, bins), (observed, expected)) in
+        ["", ", below"].iter().zip(sides).zip(observed.into_iter().zip(expected))
+    {
+        if let Some(columns) = bins.width().filter(|_| expected.iter().sum::<f64>() > 1e-3 * n) {
+            let (title, axes) = (format!("{name}{side}"), ["azimuth, quantiles", "cos θ, quantiles"]);
             found.exhibits.push(Exhibit::HeatMap(HeatMap { title, axes, columns, observed, expected }));
         }
     }
-    Integrals { pdf, albedo: [sum(1), sum(2), sum(3)], error: rounding }
+    integrals
 }

@@ -9,6 +9,43 @@
 //! | `identities` | `sample().pdf` = `pdf(wi)`, weight = f \|cos\|/pdf, f(a, b) = f(b, a); nothing is negative or no number |
 //! | `energy` | the directional albedo is at most 1, or is 1 |
 //! | `bins`, `quadrature` | cells that follow the draws of a function, however narrow its lobes, and integrals over them |
+//!
+//! In the tests of another project:
+//!
+//! ```
+//! use radianza::glam::DVec3;
+//! use radianza::verify::scattering::{Claims, Closures, Density, Draw, Scattering, check};
+//! use radianza::verify::{Findings, Size, Trial};
+//! use radianza::warp::cosine_hemisphere;
+//! use std::f64::consts::FRAC_1_PI;
+//!
+//! // Lambert's lobe of albedo 0.8, and one whose author forgot the 1/π.
+//! fn lambert(f: f64) -> impl Scattering {
+//!     Closures {
+//!         sample: move |_: DVec3, [_, u, v]: [f32; 3]| {
+//!             let wi = cosine_hemisphere([u, v]).as_dvec3();
+//!             let pdf = wi.z * FRAC_1_PI;
+//!             let weight = [f * wi.z / pdf; 3];
+//!             (pdf > 0.0).then_some(Draw { wi, weight, density: Density::SolidAngle(pdf), eta: 1.0 })
+//!         },
+//!         eval: move |_, wi: DVec3| if wi.z > 0.0 { [f; 3] } else { [0.0; 3] },
+//!         pdf: |_, wi: DVec3| wi.z.max(0.0) * FRAC_1_PI,
+//!     }
+//! }
+//!
+//! let trial = Trial { seed: 1, size: Size::Default };
+//! let ask = |f: f64| {
+//!     let mut found = Findings::new("Lambert");
+//!     check(&mut found, &trial, "lambert", &lambert(f), &Claims::default());
+//!     found
+//! };
+//! let right = ask(0.8 * FRAC_1_PI);
+//! assert!(right.checks.passes(), "{}", right.checks);
+//! let wrong = ask(0.8);
+//! assert!(!wrong.checks.passes());
+//! assert!(wrong.checks.failures().all(|check| check.name.contains("albedo ≤ 1")));
+//! println!("{}", wrong.words.join("; ")); // lambert: sends on 2.5133 of the light at every angle
+//! ```
 
 mod bins;
 mod bsdf;
@@ -18,7 +55,7 @@ mod identities;
 mod quadrature;
 mod suite;
 
-pub use density::{Integrals, density};
+pub use density::{Integrals, density, integrals};
 pub use energy::{Sampled, energy, sampled};
 pub use identities::{draws, reciprocity};
 pub use suite::check;

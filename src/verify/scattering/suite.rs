@@ -10,13 +10,14 @@ const COSINES: [f64; 6] = [0.97, 0.7, 0.4, 0.15, 0.05, 0.01];
 /// reciprocity, χ², ∫ pdf = 1, energy; with heat maps, the curve of its albedo, and a verdict in words.
 pub fn check(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scattering, claims: &Claims) {
     if claims.reciprocal {
-        reciprocity(found, trial, name, s, claims.rounding);
+        reciprocity(found, trial, name, s, claims);
     }
     for side in [1.0, -1.0].into_iter().take(if claims.two_sided { 2 } else { 1 }) {
         let below = if side < 0.0 { ", from below" } else { "" };
         let mut albedos = Vec::new();
         for mu in COSINES {
             let (wo, at) = (at_cosine(side * mu), format!("{name}, cos {}", side * mu));
+            let trial = &trial.part(&at);
             draws(found, trial, &at, s, wo, claims.rounding);
             let integrals = density(found, trial, &at, s, wo);
             let aim = if claims.lossless { 1e-3 } else { 5e-3 };

@@ -1,0 +1,92 @@
+//! A5: no lobe makes light, and lossless ones keep all of it.
+
+use super::{any, each, refracts, tables};
+use crate::bsdf::{Bsdf, Fresnel, Lobe, Micro, RoughDielectric, RoughReflection};
+use crate::spectrum::Spectrum;
+use crate::stats::Evidence;
+use crate::verify::scattering::{Claims, at_cosine, energy, integrals, sampled};
+use crate::verify::{Curve, Exhibit, Findings, Task, Topic, Trial};
+
+/// E(ωo) = ∫ f |cos θi| dωi, reflection and transmission together.
+const TOPIC: Topic = Topic {
+    id: "A5",
+    title: "directional albedo ≤ 1 at every angle, = 1 of lossless lobes, multiple scattering included",
+    source: "Heitz et al. 2016; Kulla & Conty 2017",
+};
+
+pub(super) fn tasks() -> Vec<Task> {
+    let mut tasks = each(any, |s| {
+        Task::new(TOPIC, s.name.clone(), move |trial, found| {
+            let cosines: &[f64] =
+                trial.pick(&[0.95, 0.5, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.003]);
+            let granted = tables(&s);
+            for side in [1.0, -1.0].into_iter().take(if refracts(&s) { 2 } else { 1 }) {
+                let claims = Claims { lossless: s.lossless, granted, ..Claims::default() };
+                curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims);
+            }
+        })
+    });
+    tasks.push(Task::new(TOPIC, "white conductor, every roughness", |trial, found| {
+        let claims = Claims { lossless: true, granted: 2e-4, ..Claims::default() };
+        for alpha in roughnesses(trial) {
+            let lobe = RoughReflection::new(Micro::new([alpha; 2]), Fresnel::ONE);
+            quadrature(
+                found,
+                trial,
+                &format!("α {alpha:.5}"),
+                &Bsdf::single(Lobe::RoughReflection(lobe)),
+                &CONDUCTOR,
+                &claims,
+            );
+        }
+    }));
+    for eta in [1.33, 1.0 / 1.5] {
+        tasks.push(Task::new(TOPIC, format!("clear dielectric η {eta:.3}, every roughness"), move |trial, found| {
+            let claims = Claims { lossless: true, granted: 4e-4, ..Claims::default() };
+            for alpha in roughnesses(trial) {
+                let lobe = RoughDielectric::new([alpha; 2], eta, Spectrum::ONE);
+                let bsdf = Bsdf::single(Lobe::RoughDielectric(lobe));
+                quadrature(found, trial, &format!("α {alpha:.5}"), &bsdf, &DIELECTRIC, &claims);
+            }
+        }));
+    }
+    tasks
+}
+
+const CONDUCTOR: [f64; 6] = [1.0, 0.7, 0.3, 0.08, 0.01, 1e-3];
+/// The critical angle of 1.5 lies at 0.745.
+const DIELECTRIC: [f64; 8] = [1.0, 0.75, 0.3, 0.02, -1.0, -0.75, -0.74, -0.1];
+
+/// From nearly a mirror to the roughest.
+fn roughnesses(trial: &Trial) -> impl Iterator<Item = f32> {
+    let n = trial.pick(6, 24);
+    (0..=n).map(move |i| 10f32.powf(-3.5 * (1.0 - i as f32 / n as f32)))
+}
+
+/// Energy over the angle.
+fn curve(found: &mut Findings, trial: &Trial, bsdf: &Bsdf, cosines: impl Iterator<Item = f64>, claims: &Claims) {
+    let mut points = Vec::new();
+    for mu in cosines {
+        let (wo, trial) = (at_cosine(mu), &trial.part(&format!("{mu}")));
+        let sampled = sampled(trial, bsdf, wo, 1e-3, trial.pick(1 << 13, 1 << 17));
+        let albedo = energy(found, &format!("cos {mu}"), claims, &integrals(trial, bsdf, wo), &sampled);
+        points.push((mu, albedo, sampled.all.map(|m| m.standard_error())));
+    }
+    points.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let line = |k: usize| points.iter().map(|(mu, a, se)| [*mu, a[k], se[k]]).collect();
+    let lines = ["red", "green", "blue"].into_iter().enumerate().map(|(k, lane)| (lane.into(), line(k))).collect();
+    found
+        .exhibits
+        .push(Exhibit::Curve(Curve { title: "albedo".into(), axes: ["cos θ", "directional albedo"], lines }));
+}
+
+/// Energy by quadrature alone.
+fn quadrature(found: &mut Findings, trial: &Trial, name: &str, bsdf: &Bsdf, cosines: &[f64], claims: &Claims) {
+    for &mu in cosines {
+        let trial = trial.part(&format!("{name} {mu}"));
+        let integrals = integrals(&trial, bsdf, at_cosine(mu));
+        let rounding = claims.granted + integrals.error;
+        let evidence = Evidence::Z { exact: 1.0, estimate: integrals.albedo[0], se: 0.0, dof: f64::INFINITY, rounding };
+        found.checks.push(format!("{name}, cos {mu}: albedo = 1 by quadrature"), evidence);
+    }
+}

@@ -1,0 +1,53 @@
+//! BSDFs and microsurfaces: rows A1 to A5, T5, T6, and the law of densities.
+
+mod albedo;
+mod density;
+mod energy;
+mod fresnel;
+mod lambert;
+mod microsurface;
+mod radiance;
+mod reciprocity;
+
+use crate::bsdf::{Specimen, specimens};
+use crate::verify::Task;
+
+/// Every check of lobes.
+pub(super) fn tasks() -> Vec<Task> {
+    let rows: [fn() -> Vec<Task>; 8] = [
+        lambert::tasks,
+        microsurface::tasks,
+        reciprocity::tasks,
+        energy::tasks,
+        albedo::tasks,
+        density::tasks,
+        fresnel::tasks,
+        radiance::tasks,
+    ];
+    rows.iter().flat_map(|row| row()).collect()
+}
+
+/// A task for each of these specimens.
+fn each(of: fn(&Specimen) -> bool, make: impl Fn(Specimen) -> Task) -> Vec<Task> {
+    specimens().into_iter().filter(of).map(make).collect()
+}
+
+/// Not a filter.
+fn any(_: &Specimen) -> bool {
+    true
+}
+
+/// Not all of it is deltas.
+fn smooth(specimen: &Specimen) -> bool {
+    specimen.bsdf.has_smooth()
+}
+
+/// The two sides of it differ.
+fn refracts(specimen: &Specimen) -> bool {
+    specimen.name.contains("dielectric")
+}
+
+/// Relative error in energy that its tables make: interpolation, and for dielectrics from inside the quadrature.
+fn tables(specimen: &Specimen) -> f64 {
+    if specimen.name.contains("rough dielectric") { 4e-4 } else { 2e-4 }
+}
