@@ -1,6 +1,8 @@
 //! Pixels in the page.
 
 use super::super::one_line;
+use crate::desc::Tonemap;
+use crate::film::Display;
 use crate::verify::Picture;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
@@ -19,7 +21,8 @@ pub(super) fn draw(picture: &Picture) -> Markup {
     let block = w.max(h).div_ceil(SIDE).max(1);
     let size = [w.div_ceil(block), h.div_ceil(block)];
     let places = (0..size[1]).flat_map(|y| (0..size[0]).map(move |x| [x, y]));
-    let bytes: Vec<u8> = places.flat_map(|at| code(mean(picture, at, block))).collect();
+    let display = Display::new(Tonemap::Linear, 0.0);
+    let bytes: Vec<u8> = places.flat_map(|at| code(&display, mean(picture, at, block))).collect();
     let bad = picture.pixels.iter().filter(|rgb| !rgb.iter().all(|c| c.is_finite())).count();
     html! {
         (png(size, &bytes, "picture", &one_line(&picture.title)))
@@ -45,16 +48,9 @@ fn mean(picture: &Picture, [x, y]: [u32; 2], block: u32) -> [f32; 3] {
     sum.map(|c| c / n)
 }
 
-/// sRGB (IEC 61966-2-1).
-fn code(rgb: [f32; 3]) -> [u8; 3] {
-    if !rgb.iter().all(|c| c.is_finite()) {
-        return NONE;
-    }
-    rgb.map(|c| {
-        let c = c.clamp(0.0, 1.0);
-        let encoded = if c <= 0.003_130_8 { 12.92 * c } else { 1.055 * c.powf(1.0 / 2.4) - 0.055 };
-        (255.0 * encoded).round() as u8
-    })
+/// As a screen shows it: clipped, with the sRGB curve.
+fn code(display: &Display, rgb: [f32; 3]) -> [u8; 3] {
+    if rgb.iter().all(|c| c.is_finite()) { display.code(rgb) } else { NONE }
 }
 
 /// An image element that carries its own bytes.
@@ -75,10 +71,9 @@ mod tests {
 
     #[test]
     fn codes() {
-        assert_eq!(
-            [code([0.0, 1.0, 2.0]), code([0.5, -1.0, 0.002]), code([f32::NAN, 0.0, 0.0])],
-            [[0, 255, 255], [188, 0, 7], NONE]
-        );
+        let display = Display::new(Tonemap::Linear, 0.0);
+        let codes = [[0.0, 1.0, 2.0], [0.5, -1.0, 0.0], [f32::NAN, 0.0, 0.0]].map(|rgb| code(&display, rgb));
+        assert_eq!(codes, [[0, 255, 255], [188, 0, 0], NONE]);
     }
 
     #[test]
