@@ -8,17 +8,23 @@ use select::{list, select};
 
 use super::meter::{Meter, left, time};
 use super::{Failure, args, interrupt};
+use radianza::desc;
+use radianza::scene::Scene;
 use radianza::stats::ALPHA;
 use radianza::verify::report::text::{self, Detail};
-use radianza::verify::report::{About, count};
+use radianza::verify::report::{About, count, one_line};
 use radianza::verify::{self, Report, Size, Task, battery};
 use std::io::{self, Write};
 use std::path::PathBuf;
+use std::sync::Arc;
 use std::time::Instant;
 
-/// Prove the estimator: every check is a hypothesis test that can fail, and all of them share one significance.
+/// Prove the estimator, or a scene: every check is a hypothesis test that can fail, and all of them share one
+/// significance.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Arguments {
+    /// A scene to check instead of the program: .toml, .gltf, .glb, .obj or .ply
+    scene: Option<PathBuf>,
     /// A quarter of an hour of two cores instead of a minute: more members, smaller detectable biases
     #[arg(long)]
     thorough: bool,
@@ -56,7 +62,7 @@ pub(crate) struct Arguments {
 
 /// Checks, prints, writes; fails where a check does.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let tasks = select(battery::tasks(), &arguments.only)?;
+    let tasks = select(tasks(arguments)?, &arguments.only)?;
     if arguments.list {
         return print(&list(&tasks, arguments.verbose));
     }
@@ -72,6 +78,17 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     verdict(&report)
 }
 
+/// Everything that can be checked of the scene, or of the program.
+fn tasks(arguments: &Arguments) -> Result<Vec<Task>, Failure> {
+    let Some(path) = &arguments.scene else { return Ok(battery::tasks()) };
+    let scene = desc::load(path)?;
+    if !arguments.quiet {
+        scene.notes.iter().for_each(|text| eprintln!("note: {}", one_line(text)));
+    }
+    let compiled = Scene::compile(&scene)?;
+    Ok(verify::scene::tasks(&Arc::new(scene), &Arc::new(compiled)))
+}
+
 fn check(tasks: &[Task], arguments: &Arguments) -> Result<Report, Failure> {
     let size = if arguments.thorough { Size::Thorough } else { Size::Default };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(arguments.threads).build();
@@ -81,7 +98,7 @@ fn check(tasks: &[Task], arguments: &Arguments) -> Result<Report, Failure> {
         let (elapsed, fraction) = (start.elapsed(), progress.done as f64 / progress.total as f64);
         meter.update(elapsed, fraction, || {
             let left = time(left(elapsed, fraction));
-            format!("{} of {}, about {left} left: {}", progress.done, progress.total, progress.last.name())
+            format!("{} of {}, about {left} left: {}", progress.done, progress.total, one_line(&progress.last.name()))
         });
     };
     let report = pool.install(|| verify::run(tasks, size, arguments.seed, arguments.alpha, &news));
@@ -99,14 +116,21 @@ fn detail(arguments: &Arguments) -> Detail {
 
 /// What was run, and the command that does it again.
 fn about(arguments: &Arguments) -> About {
-    let mut command = format!("radianza verify --seed {} --alpha {}", arguments.seed, arguments.alpha);
+    let quoted = |text: &str| format!("'{}'", text.replace('\'', r"'\''"));
+    let scene = arguments.scene.as_ref().map(|path| path.to_string_lossy());
+    let mut command = String::from("radianza verify");
+    if let Some(scene) = &scene {
+        command += &format!(" {}", quoted(scene));
+    }
+    command += &format!(" --seed {} --alpha {}", arguments.seed, arguments.alpha);
     if arguments.thorough {
         command += " --thorough";
     }
     for pattern in &arguments.only {
-        command += &format!(" --only '{}'", pattern.replace('\'', r"'\''"));
+        command += &format!(" --only {}", quoted(pattern));
     }
-    About { what: "Radianza itself".into(), command }
+    let name = arguments.scene.as_ref().and_then(|path| path.file_name()).map(|name| name.to_string_lossy());
+    About { what: name.map_or("Radianza itself".into(), |name| name.into_owned()), command }
 }
 
 fn verdict(report: &Report) -> Result<(), Failure> {

@@ -2,6 +2,7 @@
 
 use crate::cli::Failure;
 use radianza::verify::Task;
+use radianza::verify::report::one_line;
 
 /// How many names a pattern that fits none is answered with.
 const SHOWN: usize = 3;
@@ -30,7 +31,7 @@ fn near(pattern: &str, names: &[String]) -> String {
     };
     let mut names: Vec<(f64, &String)> = names.iter().map(|name| (likeness(name), name)).collect();
     names.sort_by(|a, b| b.0.total_cmp(&a.0));
-    match names.iter().take(SHOWN).map(|(_, name)| format!("`{name}`")).collect::<Vec<_>>() {
+    match names.iter().take(SHOWN).map(|(_, name)| format!("`{}`", one_line(name))).collect::<Vec<_>>() {
         none if none.is_empty() => String::new(),
         names => format!("; near are {}; --list names all", names.join(", ")),
     }
@@ -45,7 +46,7 @@ pub(super) fn list(tasks: &[Task], verbose: bool) -> String {
             lines += &format!("# {}: {} ({})\n", task.topic.id, task.topic.title, task.topic.source);
             last = Some(task.topic);
         }
-        lines += &task.name();
+        lines += &one_line(&task.name());
         lines.push('\n');
     }
     lines
