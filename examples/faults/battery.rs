@@ -1,0 +1,180 @@
+//! Building a tree's program and letting it verify itself.
+
+use crate::patch::Result;
+use serde::{Deserialize, Serialize};
+use std::fs::{self, File};
+use std::path::{Path, PathBuf};
+use std::process::{Command, ExitStatus, Stdio};
+use std::thread::sleep;
+use std::time::{Duration, Instant};
+
+/// How often a running battery is looked after.
+const TICK: Duration = Duration::from_millis(50);
+
+/// What the battery said.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Outcome {
+    /// Every row that was run, in its order.
+    pub rows: Vec<Row>,
+    /// Where there was no verdict: how the program ended instead.
+    pub ended: Option<String>,
+    /// Wall-clock time \[s\].
+    pub seconds: f64,
+}
+
+/// One row of the battery.
+#[derive(Clone, Debug, Serialize, Deserialize)]
+pub struct Row {
+    /// A1, F2, …
+    pub id: String,
+    /// Checks that failed, and how many there are.
+    pub failed: usize,
+    /// All checks.
+    pub checks: usize,
+    /// The first that failed, with its z or p.
+    pub first: Option<String>,
+}
+
+impl Outcome {
+    /// The rows in which a check failed.
+    pub fn failed(&self) -> impl Iterator<Item = &Row> {
+        self.rows.iter().filter(|row| row.failed > 0)
+    }
+
+    /// True where something was noticed, be it a crash.
+    pub fn caught(&self) -> bool {
+        self.ended.is_some() || self.failed().next().is_some()
+    }
+
+    /// What was noticed first.
+    pub fn first(&self) -> Option<&str> {
+        self.ended.as_deref().or_else(|| self.failed().find_map(|row| row.first.as_deref()))
+    }
+}
+
+/// Of the program's findings, what is read here.
+#[derive(Deserialize)]
+struct Document {
+    sections: Vec<Section>,
+}
+
+#[derive(Deserialize)]
+struct Section {
+    topic: String,
+    subject: String,
+    checks: Vec<Check>,
+}
+
+#[derive(Deserialize)]
+struct Check {
+    name: String,
+    passes: bool,
+    p: f64,
+    z: Option<f64>,
+    worst: Option<f64>,
+    bound: Option<f64>,
+}
+
+/// Where programs are built, and where they write.
+pub struct Workshop {
+    /// cargo's target folder, kept from fault to fault: dependencies are built once.
+    pub build: PathBuf,
+    /// Findings and complaints of the last run.
+    pub scratch: PathBuf,
+}
+
+impl Workshop {
+    /// Builds the program of `tree`.
+    ///
+    /// # Errors
+    /// With what the compiler said.
+    pub fn build(&self, tree: &Path) -> Result<()> {
+        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
+        let output = Command::new(cargo)
+            .args(["build", "--quiet", "--profile", "faults", "--bin", "radianza", "--target-dir"])
+            .arg(&self.build)
+            .current_dir(tree)
+            .output()
+            .map_err(|e| format!("cargo: {e}"))?;
+        match output.status.success() {
+            true => Ok(()),
+            false => Err(format!("it does not build:\n{}", String::from_utf8_lossy(&output.stderr))),
+        }
+    }
+
+    /// Runs the battery of the program built last, or the given rows of it.
+    pub fn run(&self, tree: &Path, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
+        let [findings, complaints] = ["findings.json", "stderr.txt"].map(|name| self.scratch.join(name));
+        let _ = fs::remove_file(&findings);
+        let stderr = File::create(&complaints).map_err(|e| format!("{}: {e}", complaints.display()))?;
+        let program = self.build.join("faults").join(format!("radianza{}", std::env::consts::EXE_SUFFIX));
+        let mut command = Command::new(&program);
+        command.args(["verify", "--quiet", "--json"]).arg(&findings).current_dir(tree);
+        rows.iter().for_each(|row| {
+            command.arg("--only").arg(format!("{row}/"));
+        });
+        let start = Instant::now();
+        let mut child =
+            command.stdout(Stdio::null()).stderr(stderr).spawn().map_err(|e| format!("{}: {e}", program.display()))?;
+        let end = loop {
+            match child.try_wait().map_err(|e| e.to_string())? {
+                Some(status) => break Some(status),
+                None if limit.is_some_and(|limit| start.elapsed() > limit) => break None,
+                None => sleep(TICK),
+            }
+        };
+        let seconds = start.elapsed().as_secs_f64();
+        let Some(status) = end else {
+            child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
+            return Ok(Outcome {
+                rows: Vec::new(),
+                ended: Some(format!("hangs: stopped after {seconds:.0} s")),
+                seconds,
+            });
+        };
+        match fs::read(&findings) {
+            Ok(json) => Ok(Outcome { rows: by_row(&json)?, ended: None, seconds }),
+            Err(_) => Ok(Outcome { rows: Vec::new(), ended: Some(crash(status, &complaints)), seconds }),
+        }
+    }
+}
+
+/// How a program ended that gave no findings.
+fn crash(status: ExitStatus, complaints: &Path) -> String {
+    let text = fs::read_to_string(complaints).unwrap_or_default();
+    // A panic's place is in the line with that word, its message in the next.
+    let panic = text.lines().skip_while(|line| !line.contains("panicked")).nth(1);
+    let last = panic.or(text.lines().last()).unwrap_or_default();
+    format!("crashes: {status}, {last}")
+}
+
+/// The findings of a run, row by row.
+fn by_row(json: &[u8]) -> Result<Vec<Row>> {
+    let document: Document = serde_json::from_slice(json).map_err(|e| format!("the findings cannot be read: {e}"))?;
+    let mut rows: Vec<Row> = Vec::new();
+    for section in &document.sections {
+        let index = rows.iter().position(|row| row.id == section.topic).unwrap_or_else(|| {
+            rows.push(Row { id: section.topic.clone(), failed: 0, checks: 0, first: None });
+            rows.len() - 1
+        });
+        let row = &mut rows[index];
+        row.checks += section.checks.len();
+        for check in section.checks.iter().filter(|check| !check.passes) {
+            row.failed += 1;
+            let first = || format!("{}/{}, {}: {}", section.topic, section.subject, check.name, check.evidence());
+            row.first.get_or_insert_with(first);
+        }
+    }
+    Ok(rows)
+}
+
+impl Check {
+    /// z, p or the deviation, in words.
+    fn evidence(&self) -> String {
+        match (self.z, self.worst, self.bound) {
+            (Some(z), ..) => format!("z = {z:.1}"),
+            (_, Some(worst), Some(bound)) => format!("off by {worst:.1e}, allowed {bound:.0e}"),
+            _ => format!("p = {:.0e}", self.p),
+        }
+    }
+}

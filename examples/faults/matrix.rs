@@ -1,0 +1,83 @@
+//! Which row notices which fault.
+
+use crate::battery::Outcome;
+use crate::patch::Patch;
+use std::fmt::Write;
+
+/// What stands at the top of the written matrix.
+const HEAD: &str = "# Planted faults
+
+Each is a small patch in `reference/faults/`. One at a time is applied to a copy of the tree, the program is built and
+verifies itself; a fault counts as caught by the rows in which a check fails. The unmodified tree passes all of them.
+Written by `cargo run --release --example faults -- --write`, which fails where a fault is caught by nothing, where a row
+that a patch names does not notice it, or where a row notices none.
+";
+
+/// The faults that were planted, and what the battery said to each.
+pub struct Matrix<'a> {
+    /// All rows of the battery, in its order.
+    pub rows: Vec<String>,
+    /// Outcome of each fault.
+    pub faults: Vec<(&'a Patch, Outcome)>,
+}
+
+impl Matrix<'_> {
+    /// Faults that nothing notices.
+    pub fn uncaught(&self) -> Vec<&str> {
+        self.faults.iter().filter(|(_, outcome)| !outcome.caught()).map(|(patch, _)| &*patch.name).collect()
+    }
+
+    /// Faults with rows that should have noticed them and did not. A program that ends early shows no row.
+    pub fn unnoticed(&self) -> Vec<String> {
+        let missing = |(patch, outcome): &(&Patch, Outcome)| {
+            let failed = |row: &&String| !outcome.failed().any(|failed| failed.id == **row);
+            let rows: Vec<&str> = patch.rows.iter().filter(failed).map(String::as_str).collect();
+            (outcome.ended.is_none() && !rows.is_empty()).then(|| format!("{} by {}", patch.name, rows.join(", ")))
+        };
+        self.faults.iter().filter_map(missing).collect()
+    }
+
+    /// Rows that notice no fault.
+    pub fn idle(&self) -> Vec<&str> {
+        let notices =
+            |row: &str| self.faults.iter().any(|(_, outcome)| outcome.failed().any(|failed| failed.id == row));
+        self.rows.iter().map(String::as_str).filter(|row| !notices(row)).collect()
+    }
+
+    /// As Markdown. Nothing in it depends on the day, the machine or its speed.
+    pub fn markdown(&self) -> String {
+        let mut text = String::from(HEAD);
+        let columns = self.rows.join(" | ");
+        let _ = writeln!(text, "\n{} faults, {} rows.\n", self.faults.len(), self.rows.len());
+        let _ = writeln!(text, "| fault | {columns} |\n| --- |{}", " :-: |".repeat(self.rows.len()));
+        for (patch, outcome) in &self.faults {
+            let mark = |row: &String| if outcome.failed().any(|failed| failed.id == *row) { " ● |" } else { " |" };
+            let marks: String = self.rows.iter().map(mark).collect();
+            let _ = writeln!(text, "| `{}` |{marks}", patch.name);
+        }
+        let _ = writeln!(text, "\n| fault | what is wrong | first to notice |\n| --- | --- | --- |");
+        for (patch, outcome) in &self.faults {
+            let first = outcome.first().unwrap_or("nothing").replace('|', "\\|");
+            let _ = writeln!(text, "| `{}` | {} | {first} |", patch.name, patch.what);
+        }
+        text
+    }
+
+    /// For a terminal: a line a fault, a letter a row.
+    pub fn table(&self) -> String {
+        let width = self.faults.iter().map(|(patch, _)| patch.name.len()).max().unwrap_or(0);
+        let longest = self.rows.iter().map(String::len).max().unwrap_or(0);
+        let mut text = String::new();
+        // Names of rows from top to bottom.
+        for i in 0..longest {
+            let letters: String = self.rows.iter().map(|row| row.chars().nth(i).unwrap_or(' ')).collect();
+            let _ = writeln!(text, "{:width$}  {letters}", "");
+        }
+        for (patch, outcome) in &self.faults {
+            let mark = |row: &String| if outcome.failed().any(|failed| failed.id == *row) { '#' } else { '.' };
+            let marks: String = self.rows.iter().map(mark).collect();
+            let _ = writeln!(text, "{:width$}  {}", patch.name, outcome.ended.as_ref().map_or(marks, String::clone));
+        }
+        text
+    }
+}
