@@ -1,11 +1,15 @@
 //! The tasks that check this crate.
 
+mod camera;
+mod filter;
 mod light;
+mod sampler;
+mod warp;
 
 use super::Task;
 
 /// Every check of the crate, row by row.
 pub fn tasks() -> Vec<Task> {
-    let rows: &[fn() -> Vec<Task>] = &[light::tasks];
+    let rows: &[fn() -> Vec<Task>] = &[camera::tasks, filter::tasks, light::tasks, sampler::tasks, warp::tasks];
     rows.iter().flat_map(|row| row()).collect()
 }
