@@ -8,11 +8,13 @@
 //! | module | what it makes |
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
+//! | [`calibration`] | whether checks fail as often as they should |
 //! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`report`] | what a run found |
 
 pub mod battery;
+pub mod calibration;
 pub mod chart;
 pub mod measure;
 pub mod report;
