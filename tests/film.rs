@@ -1,16 +1,16 @@
 //! Film, filters and image files: sums and errors, χ² of every filter, round trips, damaged files.
 
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use radianza::desc::{Filter, Integrator, SamplerKind, Strategy, Tonemap};
 use radianza::film::exr::{ReadError, read_exr, write_exr};
 use radianza::film::file::{check_writable, write_atomic};
 use radianza::film::png::write_png;
 use radianza::film::{
-    Accumulator, Display, Film, Header, Image, LayerKind, MergeError, Origin, PixelSample, develop, filter_density,
-    filter_offset, filter_radius,
+    Accumulator, Display, Film, Header, Image, LayerKind, MergeError, Origin, PixelSample, develop, filter_offset,
+    filter_radius,
 };
 use radianza::spectrum::Spectrum;
-use radianza::stats::{Family, Moments, chi2_test};
+use radianza::stats::{Family, Moments};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
@@ -132,69 +132,6 @@ fn merging_is_addition() {
     assert_eq!(tiled.merge(&random_film([6, 5], all, 2, 8, true, 7)), Err(MergeError::Replicate(4, 8)));
     assert_eq!(tiled.merge(&random_film([6, 5], all, 2, 4, false, 7)), Err(MergeError::Transport));
     assert_eq!(tiled.merge(&random_film([5, 6], [0, 0, 5, 6], 2, 4, true, 7)), Err(MergeError::Size(6, 5, 5, 6)));
-}
-
-#[test]
-fn filters_are_densities() {
-    for filter in FILTERS {
-        let radius = f64::from(filter_radius(filter));
-        // Midpoint rule on one axis through the other's centre gives w(0) ∫ w.
-        let n = 20_000;
-        let step = 2.0 * radius / f64::from(n);
-        let at = |i: u32| Vec2::new((-radius + (f64::from(i) + 0.5) * step) as f32, 0.0);
-        let line: f64 = (0..n).map(|i| filter_density(filter, at(i)) * step).sum();
-        let integral = line / filter_density(filter, Vec2::ZERO).sqrt();
-        assert!((integral - 1.0).abs() < 1e-6, "{filter:?} {integral}");
-        assert_eq!(filter_density(filter, Vec2::new(filter_radius(filter) + 0.01, 0.0)), 0.0);
-    }
-}
-
-#[test]
-fn filter_samples_follow_the_filter() {
-    // χ² over a 24 × 24 grid of the support, expected counts by 8 × 8 midpoints a cell.
-    let (bins, n) = (24usize, 4_000_000usize);
-    let mut family = Family::new("pixel filters");
-    for (index, filter) in FILTERS.into_iter().enumerate() {
-        let mut rng = rng(10 + index as u128);
-        let radius = filter_radius(filter);
-        let mut counts = vec![0u32; bins * bins];
-        let mut moments = [0.0f64; 4];
-        for _ in 0..n {
-            let x = filter_offset(filter, [rng.random(), rng.random()]);
-            assert!(x.abs().max_element() <= radius, "{filter:?} {x}");
-            let cell = ((x / radius * 0.5 + 0.5) * bins as f32).as_uvec2().min(glam::UVec2::splat(bins as u32 - 1));
-            counts[cell.y as usize * bins + cell.x as usize] += 1;
-            let (x, y) = (f64::from(x.x), f64::from(x.y));
-            moments = [moments[0] + x, moments[1] + x * x, moments[2] + x * y, moments[3] + x.powi(4)];
-        }
-        let width = 2.0 * f64::from(radius) / bins as f64;
-        let sub = 8;
-        let expected = |cell: usize| {
-            let place = |c: usize, i: usize| -f64::from(radius) + (c as f64 + (i as f64 + 0.5) / sub as f64) * width;
-            let density = |i: usize| {
-                let at = Vec2::new(place(cell % bins, i % sub) as f32, place(cell / bins, i / sub) as f32);
-                filter_density(filter, at)
-            };
-            (0..sub * sub).map(density).sum::<f64>() / (sub * sub) as f64 * width * width * n as f64
-        };
-        let observed: Vec<f64> = counts.iter().map(|&c| f64::from(c)).collect();
-        let expected: Vec<f64> = (0..bins * bins).map(expected).collect();
-        family.chi2(format!("{filter:?} χ²"), chi2_test(&observed, &expected, 5.0));
-
-        // Mean 0, variance by quadrature, axes uncorrelated.
-        let m = moments.map(|m| m / n as f64);
-        let steps = 100_000;
-        let h = 2.0 * f64::from(radius) / f64::from(steps);
-        let at = |i: u32| -f64::from(radius) + (f64::from(i) + 0.5) * h;
-        let axis = |x: f64| filter_density(filter, Vec2::new(x as f32, 0.0));
-        let norm = filter_density(filter, Vec2::ZERO).sqrt();
-        let variance: f64 = (0..steps).map(|i| at(i).powi(2) * axis(at(i)) * h / norm).sum();
-        let root = (n as f64).sqrt();
-        family.estimate(format!("{filter:?} mean"), 0.0, m[0], m[1].sqrt() / root);
-        family.estimate(format!("{filter:?} variance"), variance, m[1], (m[3] - m[1] * m[1]).sqrt() / root);
-        family.estimate(format!("{filter:?} covariance"), 0.0, m[2], m[1] / root);
-    }
-    family.assert();
 }
 
 #[test]

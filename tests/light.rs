@@ -1,132 +1,20 @@
-//! Lights against closed forms (VERIFICATION L1–L6), their densities against their samples, and the choice among them.
-
-#[path = "light/density.rs"]
-mod density;
-#[path = "light/irradiance.rs"]
-mod irradiance;
+//! Lights: darkness, environments that add up, pictures the right way round, flux. Irradiance, densities and choice are
+//! rows of the battery.
 
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
-use radianza::glam::{Mat3, Mat4, Quat, Vec2, Vec3, Vec4};
+use radianza::glam::{Mat3, Mat4, Vec3, Vec4};
 use radianza::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
-use radianza::math::{Transform, safe_sqrt};
+use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
-use radianza::stats::{Family, Moments, chi2_test};
 use radianza::texture::Textures;
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
-/// Uniform grey emission of radiance 1.
-fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([1.0; 3]), sides }
-}
-
-fn triangle(p: [Vec3; 3], sides: Sides) -> Light {
-    let light = TriangleLight::new(p, &TriangleAttributes::default(), false, &emission(sides));
-    Light::Triangle(light.expect("a triangle with an area"))
-}
-
-fn quadric(quadric: Quadric, to_world: Mat4, sides: Sides) -> Light {
-    let transform = Transform::from_mat4(to_world).expect("an invertible map");
-    Light::Quadric(Box::new(QuadricLight::new(PlacedQuadric::new(quadric, transform, false), &emission(sides))))
-}
-
 fn environment(radiance: f32, image: Option<desc::Image>, to_world: Mat3) -> Light {
     let written = desc::Environment { radiance: [radiance; 3], image: image.as_ref().map(|_| 0), to_world };
     Light::Environment(Box::new(Environment::new(&written, image.as_ref())))
-}
-
-/// Directions of a specimen-like random pose.
-fn random_direction(rng: &mut Pcg64Mcg) -> Vec3 {
-    let z = 1.0 - 2.0 * rng.random::<f32>();
-    let (sin, cos) = (std::f32::consts::TAU * rng.random::<f32>()).sin_cos();
-    let rho = safe_sqrt(1.0 - z * z);
-    Vec3::new(rho * cos, rho * sin, z)
-}
-
-fn solid_angle_pdf(pdf: Pdf) -> Option<f32> {
-    match pdf {
-        Pdf::SolidAngle(pdf) => Some(pdf),
-        Pdf::Discrete(_) => None,
-    }
-}
-
-/// Lights of very different powers, some black.
-fn a_few_lights() -> Vec<Light> {
-    let point = |z: f32, intensity: f32| {
-        Light::from_desc(&desc::Light::Point { position: Vec3::new(0.3, 0.1, z), intensity: [intensity; 3] })
-    };
-    let sun = desc::Light::Directional { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: [0.3; 3] };
-    let disk = Quadric::Disk { radius: 0.5 };
-    let facing_down = Mat4::from_rotation_translation(Quat::from_rotation_x(std::f32::consts::PI), Vec3::Z);
-    vec![
-        point(2.0, 0.7),
-        point(1.0, 0.0),
-        Light::from_desc(&sun),
-        quadric(disk, facing_down, Sides::Front),
-        environment(0.1, None, Mat3::IDENTITY),
-        point(0.3, 1e-4),
-        environment(0.2, None, Mat3::IDENTITY),
-        triangle([Vec3::new(-1.0, 0.0, 1.0), Vec3::new(-1.0, 1.0, 1.0), Vec3::new(-2.0, 0.0, 1.0)], Sides::Both),
-    ]
-}
-
-/// χ² of the light chosen against the probabilities stated; black lights are never chosen.
-#[test]
-fn the_choice_follows_its_probabilities() {
-    let lights = Lights::new(a_few_lights(), (Vec3::ZERO, 3.0), &Textures::default());
-    let count = lights.all().len();
-    let choices: Vec<f64> = (0..count as u32).map(|i| f64::from(lights.choice(i))).collect();
-    assert_eq!(choices.iter().sum::<f64>(), 1.0);
-    assert_eq!(choices[1], 0.0);
-    assert!(choices.iter().enumerate().all(|(i, &p)| i == 1 || p > 1e-3), "{choices:?}");
-
-    // From above everything every light is seen but those that face down: count through the sample.
-    let (mut rng, n) = (Pcg64Mcg::new(5), 1_000_000);
-    let mut chosen = vec![0.0; count];
-    for _ in 0..n {
-        let u = [rng.random(), rng.random()];
-        if let Some((i, _)) = lights.sample(Vec3::ZERO, rng.random(), u, &Textures::default()) {
-            chosen[i as usize] += 1.0;
-        }
-    }
-    let expected: Vec<f64> = choices.iter().map(|p| p * f64::from(n)).collect();
-    let mut family = Family::new("choice of a light");
-    family.p("by power", chi2_test(&chosen, &expected, 5.0).p);
-    family.assert();
-}
-
-/// Irradiance from all lights at once is the sum of their closed forms.
-#[test]
-fn all_lights_together_give_the_sum() {
-    let lights = Lights::new(a_few_lights(), (Vec3::ZERO, 3.0), &Textures::default());
-    let point = |z: f64, intensity: f64| {
-        let r2: f64 = 0.3 * 0.3 + 0.1 * 0.1 + z * z;
-        intensity * z / r2.powf(1.5)
-    };
-    let pi = std::f64::consts::PI;
-    let patch = [Vec3::new(-1.0, 0.0, 1.0), Vec3::new(-1.0, 1.0, 1.0), Vec3::new(-2.0, 0.0, 1.0)];
-    let exact = point(2.0, 0.7)
-        + 0.3 * 0.8
-        + pi * 0.25 / (0.25 + 1.0)
-        + pi * 0.1
-        + point(0.3, 1e-4)
-        + pi * 0.2
-        + irradiance::polygon(&patch.map(|p| p.as_dvec3()), Vec3::Z.as_dvec3());
-    let mut rng = Pcg64Mcg::new(6);
-    let estimate: Moments = (0..4_000_000)
-        .map(|_| {
-            let u = [rng.random(), rng.random()];
-            let Some((_, s)) = lights.sample(Vec3::ZERO, rng.random(), u, &Textures::default()) else { return 0.0 };
-            let (Pdf::SolidAngle(p) | Pdf::Discrete(p)) = s.pdf;
-            f64::from(s.le.0.x * s.wi.z.max(0.0) / p)
-        })
-        .collect();
-    let mut family = Family::new("all lights");
-    // The disk's z = 0 plane was turned by π in f32: 1e-7.
-    family.rounded("sum of closed forms", exact, estimate.mean(), estimate.standard_error(), 1e-6);
-    family.assert();
 }
 
 /// No lights, and lights that are all black.
@@ -141,28 +29,6 @@ fn darkness_is_empty() {
         assert_eq!(lights.environment_le(Vec3::X), Spectrum::ZERO);
         assert_eq!(lights.environment_pdf(Vec3::X), 0.0);
         assert_eq!(lights.total_power(), Spectrum::ZERO);
-    }
-}
-
-/// `pdf_hit` and `environment_pdf` are what `sample` said, the choice included.
-#[test]
-fn densities_include_the_choice() {
-    let textures = Textures::default();
-    let lights = Lights::new(a_few_lights(), (Vec3::ZERO, 3.0), &textures);
-    let mut rng = Pcg64Mcg::new(8);
-    for _ in 0..10_000 {
-        let u = [rng.random(), rng.random()];
-        let Some((i, s)) = lights.sample(Vec3::ZERO, rng.random(), u, &textures) else { continue };
-        let Some(pdf) = solid_angle_pdf(s.pdf) else { continue };
-        let light = &lights.all()[i as usize];
-        let expected = match light {
-            Light::Environment(_) => lights.environment_pdf(s.wi),
-            _ => match light.intersect(&radianza::math::Ray::new(Vec3::ZERO, s.wi)) {
-                Some((_, hit)) => lights.pdf_hit(i, Vec3::ZERO, hit.p, hit.ng),
-                None => continue,
-            },
-        };
-        assert!((pdf / expected - 1.0).abs() < 1e-4, "{pdf} {expected} of {light:?}");
     }
 }
 
@@ -189,69 +55,65 @@ fn environments_add_up() {
     }
 }
 
-/// Flux: closed forms of area lights, and the spot's fall-off integrated by sampling.
+/// Flux of area lights and of light from infinity in closed form.
 #[test]
 fn powers_are_the_integrals_of_what_is_emitted() {
     let none = |_: usize| Vec4::ONE;
-    let power = |light: &Light| f64::from(light.power(2.0, &none).0.x);
     let pi = std::f64::consts::PI;
-    let sphere = quadric(Quadric::Sphere { radius: 2.0 }, Mat4::IDENTITY, Sides::Front);
-    let sheet = triangle([Vec3::ZERO, Vec3::X, Vec3::Y], Sides::Both);
+    let emission = |sides| Emission { radiance: ColorParam::constant([1.0; 3]), sides };
+    let identity = Transform::from_mat4(Mat4::IDENTITY).expect("invertible");
+    let sphere = PlacedQuadric::new(Quadric::Sphere { radius: 2.0 }, identity, false);
+    let sphere = Light::Quadric(Box::new(QuadricLight::new(sphere, &emission(Sides::Front))));
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+    let sheet = TriangleLight::new(corners, &TriangleAttributes::default(), false, &emission(Sides::Both));
+    let sheet = Light::Triangle(sheet.expect("a triangle with an area"));
     for (light, exact) in [
         (&sphere, 16.0 * pi * pi),
         (&sheet, pi),
         (&environment(3.0, None, Mat3::IDENTITY), 3.0 * 4.0 * pi * 4.0 * pi),
         (&Light::from_desc(&desc::Light::Point { position: Vec3::ZERO, intensity: [2.0; 3] }), 8.0 * pi),
     ] {
-        assert!((power(light) / exact - 1.0).abs() < 1e-6, "{} is not {exact}", power(light));
+        let power = f64::from(light.power(2.0, &none).0.x);
+        assert!((power / exact - 1.0).abs() < 1e-6, "{power} is not {exact}");
     }
-
-    let mut family = Family::new("flux of spots");
-    let mut rng = Pcg64Mcg::new(10);
-    for (inner, outer) in [(0.0, 1.0), (0.5, 0.9), (0.7, 0.7), (1.5, 3.1)] {
-        let spot = Light::from_desc(&desc::Light::Spot {
-            position: Vec3::ZERO,
-            direction: Vec3::Y,
-            intensity: [2.0; 3],
-            inner,
-            outer,
-        });
-        let flux: Moments = (0..400_000)
-            .map(|_| {
-                let sample = spot.sample(random_direction(&mut rng), [0.5; 2], &Textures::default());
-                4.0 * pi * sample.map_or(0.0, |s| f64::from(s.le.0.x))
-            })
-            .collect();
-        family.rounded(format!("{inner} to {outer}"), power(&spot), flux.mean(), flux.standard_error(), 1e-6);
-    }
-    family.assert();
 }
 
-/// Texture and vertex colour: light sampling agrees with meeting the triangle along cosine-weighted directions, and
-/// the power with the mean.
+/// The picture is the right way round: the middle looks along −z, the top is +y, columns grow towards +x.
 #[test]
-fn textured_emission() {
-    let texture = desc::TextureRef { texture: 0, uv_set: 1, transform: radianza::glam::Affine2::IDENTITY };
-    let scene = desc::Scene {
-        textures: vec![desc::Texture::Checker { even: [1.0, 0.2, 0.0], odd: [0.0, 0.6, 2.0], scale: [3.0, 2.0] }],
-        ..desc::Scene::default()
+fn environment_images_are_oriented() {
+    // Red in the middle column, green right of it, blue on the top row, white at the bottom; the rest is black.
+    let pixel = |i: u32| match (i % 5, i / 5) {
+        (_, 0) => [0.0, 0.0, 1.0, 1.0],
+        (_, 4) => [1.0; 4],
+        (2, _) => [1.0, 0.0, 0.0, 1.0],
+        (3, _) => [0.0, 1.0, 0.0, 1.0],
+        _ => [0.0, 0.0, 0.0, 1.0],
     };
-    let textures = Textures::new(&scene);
-    let emission = Emission {
-        radiance: ColorParam { factor: [2.0, 1.0, 0.5], texture: Some(texture), vertex_color: true },
-        sides: Sides::Front,
+    let image = desc::Image {
+        name: "compass".into(),
+        size: [5, 5],
+        pixels: desc::Pixels::Rgba32F((0..25).map(pixel).collect()),
     };
-    let attributes = TriangleAttributes {
-        uv: [None, Some([Vec2::ZERO, Vec2::X, Vec2::Y])],
-        colors: Some([Vec4::ONE, Vec4::splat(0.5), Vec4::new(0.0, 1.0, 0.0, 1.0)]),
-        ..TriangleAttributes::default()
+    let turn = Mat3::from_rotation_y(0.4);
+    let Light::Environment(light) = environment(1.0, Some(image), turn) else { unreachable!() };
+    let rgb = |w: Vec3| light.le(turn * w).to_rgb();
+    assert_eq!(rgb(Vec3::NEG_Z), [1.0, 0.0, 0.0]);
+    assert_eq!(rgb(Vec3::X), [0.0, 1.0, 0.0]);
+    assert_eq!(rgb(Vec3::NEG_X), [0.0, 0.0, 0.0]);
+    assert_eq!(rgb(Vec3::Z), [0.0, 0.0, 0.0]);
+    assert_eq!(rgb(Vec3::Y), [0.0, 0.0, 1.0]);
+    assert_eq!(rgb(Vec3::NEG_Y), [1.0, 1.0, 1.0]);
+}
+
+/// 8-bit pictures are sRGB; numbers that no radiance can have count as 0.
+#[test]
+fn environment_pixels_are_decoded() {
+    let image = |pixels| desc::Image { name: "one".into(), size: [1, 1], pixels };
+    let le = |pixels| match environment(2.0, Some(image(pixels)), Mat3::IDENTITY) {
+        Light::Environment(light) => light.le(Vec3::X).to_rgb(),
+        _ => unreachable!(),
     };
-    let mut family = Family::new("textured emission");
-    for (name, height) in [("near", 0.4), ("far", 5.0)] {
-        let p = [Vec3::new(1.0, -0.5, height), Vec3::new(-1.0, -1.0, height), Vec3::new(0.2, 1.5, height)];
-        let light = TriangleLight::new(p, &attributes, false, &emission).expect("a triangle with an area");
-        let light = Light::Triangle(light);
-        irradiance::two_estimators(&mut family, name, &light, (Vec3::ZERO, Vec3::Z), None, &textures);
-    }
-    family.assert();
+    let [r, g, b] = le(desc::Pixels::Rgba8(vec![[255, 0, 188, 9]]));
+    assert!((r, g) == (2.0, 0.0) && (b - 2.0 * 0.502_886_5).abs() < 1e-5, "{b}");
+    assert_eq!(le(desc::Pixels::Rgba32F(vec![[f32::NAN, f32::INFINITY, -1.0, 1.0]])), [0.0; 3]);
 }

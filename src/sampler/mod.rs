@@ -7,10 +7,12 @@
 mod hash;
 mod independent;
 mod sobol;
+mod specimens;
 
 pub use hash::{hash, mix};
 pub use independent::Independent;
 pub use sobol::{Sobol, owen_scramble, sobol_2d};
+pub use specimens::{Specimen, specimens};
 
 /// Where the numbers come from.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

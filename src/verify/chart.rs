@@ -3,6 +3,7 @@
 use super::HeatMap;
 use crate::math::Frame;
 use crate::stats::{Chi2, chi2_test};
+use crate::warp::ONE_MINUS_EPSILON;
 use glam::{DVec2, DVec3, Vec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
@@ -28,18 +29,27 @@ pub struct Quadrature {
 
 impl Default for Quadrature {
     fn default() -> Self {
-        Self { strata: 8, rough: 8 }
+        Self { strata: 6, rough: 10 }
     }
 }
 
 impl Chart {
-    /// Holds all directions of a pilot run with a margin of 2.5 % on each side, in `bins` × `bins` bins; the whole
-    /// sphere where there are none.
-    pub fn around(pilot: &[Vec3], bins: usize) -> Self {
+    /// The whole sphere, in `bins` × `bins` bins of which those at the corners lie outside the map.
+    pub fn sphere(bins: usize) -> Self {
+        let cell = DVec2::splat(4.0 / bins as f64);
+        Self { frame: Frame::from_z(Vec3::Z), low: DVec2::splat(-2.0), cell, bins }
+    }
+
+    /// Holds the directions that `draw` gives on a grid of the unit square, borders included, with a margin of 2.5 % on
+    /// each side, in `bins` × `bins` bins; the whole sphere where there are none.
+    pub fn of(mut draw: impl FnMut([f32; 2]) -> Option<Vec3>, bins: usize) -> Self {
+        let at = |k: u32| (k as f32 / 96.0).min(ONE_MINUS_EPSILON);
+        let pilot: Vec<Vec3> = (0..97 * 97).filter_map(|i| draw([at(i % 97), at(i / 97)])).collect();
+        let pilot = &pilot;
         let centre = pilot.iter().sum::<Vec3>().try_normalize().unwrap_or(Vec3::Z);
         let mut chart = Self { frame: Frame::from_z(centre), low: DVec2::ZERO, cell: DVec2::ONE, bins };
         if pilot.is_empty() {
-            return Self { low: DVec2::splat(-2.0), cell: DVec2::splat(4.0 / bins as f64), ..chart };
+            return Self::sphere(bins);
         }
         // Turn the frame so that x is the direction of greatest variance: thin clouds fill the rectangle.
         let second = |f: fn(DVec2) -> f64| pilot.iter().map(|&w| f(chart.map(w))).sum::<f64>();
@@ -77,8 +87,8 @@ impl Chart {
         self.unmap(self.low + self.cell * self.bins as f64 * DVec2::from(u))
     }
 
-    /// ∫ f dω over a bin, by jittered strata that are refined where f is not smooth.
-    pub fn integral(&self, bin: usize, how: Quadrature, rng: &mut Pcg64Mcg, f: impl Fn(Vec3) -> f64) -> f64 {
+    /// ∫ f dω over a bin and the variance of that number, by jittered strata that are refined where f is not smooth.
+    pub fn integral(&self, bin: usize, how: Quadrature, rng: &mut Pcg64Mcg, f: impl Fn(Vec3) -> f64) -> [f64; 2] {
         let corner = self.low + self.cell * DVec2::new((bin % self.bins) as f64, (bin / self.bins) as f64);
         let mut mean = |corner: DVec2, size: DVec2, n: u32| {
             let (mut sum, mut low, mut high) = (0.0, f64::INFINITY, 0f64);
@@ -92,13 +102,19 @@ impl Chart {
         };
         let Quadrature { strata, rough } = how;
         let size = self.cell / f64::from(strata);
-        let over = (0..strata * strata).map(|k| {
+        let (mut sum, mut variance) = (0.0, 0.0);
+        for k in 0..strata * strata {
             let corner = corner + size * DVec2::new((k % strata).into(), (k / strata).into());
             // Probes that are not summed decide where to look closer: the sum stays unbiased.
             let (_, smooth) = mean(corner, size, 3);
-            mean(corner, size, if smooth { 2 } else { rough }).0
-        });
-        over.sum::<f64>() * size.element_product()
+            let n = if smooth { 2 } else { rough };
+            // Two independent means tell how far theirs may be off.
+            let [a, b] = [mean(corner, size, n).0, mean(corner, size, n).0];
+            sum += 0.5 * (a + b);
+            variance += 0.25 * (a - b).powi(2);
+        }
+        let area = size.element_product();
+        [sum * area, variance * area * area]
     }
 
     /// Where a direction lies on the map.
@@ -130,7 +146,7 @@ pub struct Fit {
 
 /// χ² of `count` directions of `draw` that lie on the chart against ∫ `density` dω over its bins, given how many they
 /// are: the test is of the shape alone, and leaves the density's total, which quadrature does not know as well, to
-/// others.
+/// others. The quadrature's own variance is added to that of the counts; only poles of the density make it matter.
 pub fn fit(
     chart: &Chart,
     (seed, count, how): (u64, u32, Quadrature),
@@ -146,12 +162,17 @@ pub fn fit(
             observed[bin] += 1.0;
         }
     }
-    let integrals: Vec<f64> = (0..bins).map(|bin| chart.integral(bin, how, &mut rng, &density)).collect();
-    let (drawn, integral) = (observed.iter().sum::<f64>(), integrals.iter().sum::<f64>());
+    let integrals: Vec<[f64; 2]> = (0..bins).map(|bin| chart.integral(bin, how, &mut rng, &density)).collect();
+    let (drawn, integral) = (observed.iter().sum::<f64>(), integrals.iter().map(|[p, _]| p).sum::<f64>());
     // A bin that the support only touches may be missed by the quadrature: it is merged, not refused.
-    let expected: Vec<f64> = integrals.iter().map(|p| (drawn * p / integral).max(1e-6)).collect();
+    let expected: Vec<f64> = integrals.iter().map(|[p, _]| (drawn * p / integral).max(1e-6)).collect();
+    let shrunk = |(i, &o): (usize, &f64)| {
+        let (e, variance) = (expected[i], integrals[i][1] * (drawn / integral).powi(2));
+        (e + (o - e) * (e / (e + variance)).sqrt()).max(0.0)
+    };
+    let counts: Vec<f64> = observed.iter().enumerate().map(shrunk).collect();
     // Small counts have a heavier tail than χ² at the significance of thousands of checks.
-    let test = chi2_test(&observed, &expected, 20.0);
+    let test = chi2_test(&counts, &expected, 20.0);
     let map = HeatMap {
         title: title.into(),
         axes: ["along the greatest spread", "across"],
@@ -168,9 +189,7 @@ mod tests {
     use crate::warp::{cosine_hemisphere, cosine_hemisphere_pdf, uniform_cone};
 
     fn chart(draw: impl Fn([f32; 2]) -> Vec3) -> Chart {
-        let mut rng = Pcg64Mcg::seed_from_u64(1);
-        let pilot: Vec<Vec3> = (0..10_000).map(|_| draw([rng.random(), rng.random()])).collect();
-        Chart::around(&pilot, 12)
+        Chart::of(|u| Some(draw(u)), 12)
     }
 
     #[test]

@@ -8,6 +8,7 @@
 //! | module | what it makes |
 //! | --- | --- |
 //! | [`battery`] | the tasks that check this crate |
+//! | [`calibration`] | whether checks fail as often as they should |
 //! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
 //! | [`expect`] | a scene that carries its exact answer |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
@@ -19,6 +20,7 @@
 //! | [`scenes`] | the scene files of the crate, held in the binary |
 
 pub mod battery;
+pub mod calibration;
 pub mod chart;
 pub mod expect;
 pub mod measure;

@@ -5,12 +5,14 @@
 
 mod disk;
 mod filter;
+mod specimens;
 mod sphere;
 mod table;
 mod triangle;
 
 pub use disk::{UNIFORM_DISK_PDF, uniform_disk, uniform_disk_inverse};
-pub use filter::{Quantiles, blackman_harris, gaussian, tent, tent_inverse, tent_pdf};
+pub use filter::{blackman_harris, gaussian};
+pub use specimens::{Specimen, Warp, specimens};
 pub use sphere::{
     UNIFORM_HEMISPHERE_PDF, UNIFORM_SPHERE_PDF, cosine_hemisphere, cosine_hemisphere_inverse, cosine_hemisphere_pdf,
     one_minus_cos_of_sin2, uniform_cone, uniform_cone_inverse, uniform_cone_pdf, uniform_hemisphere,

@@ -4,7 +4,7 @@
 //! rest of L_b gives E = (L − L_b) n·∫ω dω + π L_b with ∫ω dω over the texel in closed form.
 
 use super::environment_light;
-use super::irradiance::Lit;
+use super::irradiance::{Lit, ROUNDING};
 use crate::desc;
 use crate::texture::Textures;
 use crate::verify::{Task, Topic};
@@ -59,7 +59,11 @@ fn bright_texel(column: u32, row: u32, rest: f32) -> Task {
     let exact = (200.0 - rest) * texel_irradiance(size, column, row, local) + PI * rest;
     let name = format!("texel ({column}, {row}) over {rest:.2} by light sampling and hemisphere");
     Task::new(L6, name, move |trial, found| {
-        Lit { light: &light, p: Vec3::ZERO, n, textures: &Textures::default() }.check(trial, found, "E", exact);
+        let lit = Lit { light: &light, p: Vec3::ZERO, n, textures: &Textures::default() };
+        found.checks.replicated("E: light", exact, &lit.by_light(trial, exact), ROUNDING);
+        // Directions about the normal hardly ever meet a lone texel: those about the texel do.
+        let met = if rest > 0.0 { lit.by_hemisphere(trial, exact) } else { lit.by_chart(trial, exact) };
+        found.checks.replicated("E: meeting it", exact, &met, ROUNDING);
     })
 }
 

@@ -51,7 +51,7 @@ pub(super) fn polygon(vertices: &[DVec3], n: DVec3) -> f64 {
 fn poses(trial: &Trial, found: &mut Findings) {
     let mut rng = rng(trial.seed);
     let mut pose = 0;
-    while pose < trial.pick(3, 12) {
+    while pose < trial.pick(2, 10) {
         let centre = random_direction(&mut rng) * (0.3 + 1.2 * rng.random::<f32>());
         let corners = [(); 3].map(|()| centre + random_direction(&mut rng));
         // Every other pose dips below the horizon.

@@ -8,7 +8,11 @@ use super::{random_direction, rng};
 use crate::desc;
 use crate::light::Light;
 use crate::texture::Textures;
+use crate::verify::measure::to_detect;
 use crate::verify::{Findings, Task, Topic, Trial};
+use crate::warp::uniform_sphere;
+use glam::{Vec3, Vec4};
+use std::f64::consts::PI;
 
 pub(super) const L1: Topic = Topic {
     id: "L1",
@@ -63,15 +67,13 @@ fn poses(trial: &Trial, found: &mut Findings) {
 /// Φ = 2π I ((1 − cos inner) + (cos inner − cos outer)/3): what [`Light::power`] says against ∫ E r² dω, with θ
 /// stratified.
 fn flux_of_spots(trial: &Trial, found: &mut Findings) {
-    use crate::verify::measure::to_detect;
-    use glam::Vec3;
     for (inner, outer) in [(0.0, 1.0), (0.5, 0.9), (0.7, 0.7), (1.5, 3.1)] {
         let written = desc::Light::Spot { position: Vec3::ZERO, direction: Vec3::Y, intensity: [2.0; 3], inner, outer };
         let spot = Light::from_desc(&written);
-        let power = f64::from(spot.power(2.0, &|_| glam::Vec4::ONE).0.x);
-        let flux = to_detect(trial, power, 1e-3, 1 << 12, |u| {
-            let sample = spot.sample(crate::warp::uniform_sphere(u), [0.5; 2], &Textures::default());
-            4.0 * std::f64::consts::PI * sample.map_or(0.0, |s| f64::from(s.le.0.x))
+        let power = f64::from(spot.power(2.0, &|_| Vec4::ONE).0.x);
+        let flux = to_detect(trial, power, 3e-3, 1 << 15, |u| {
+            let sample = spot.sample(uniform_sphere(u), [0.5; 2], &Textures::default());
+            4.0 * PI * sample.map_or(0.0, |s| f64::from(s.le.0.x))
         });
         found.checks.replicated(format!("{inner} to {outer}"), power, &flux, 1e-6);
     }

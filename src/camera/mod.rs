@@ -3,6 +3,10 @@
 //! Film points are in pixels, x to the right and y down; pixel (i, j) is the square [i, i + 1) × [j, j + 1). In its own
 //! space the camera stands at the origin, looks along −z and has +y up.
 
+mod specimens;
+
+pub use specimens::{SIZE, Specimen, specimens};
+
 use crate::desc::{self, Fov, Lens, Projection};
 use crate::math::Ray;
 use crate::warp::uniform_disk;
