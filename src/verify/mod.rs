@@ -7,6 +7,7 @@
 //!
 //! | module | what it makes |
 //! | --- | --- |
+//! | [`agreement`] | two images of one thing |
 //! | [`battery`] | the tasks that check this crate |
 //! | [`expect`] | a scene that carries its exact answer |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
@@ -14,7 +15,9 @@
 //! | [`replicated`] | images in independent replicates |
 //! | [`report`] | what a run found |
 //! | [`scenes`] | the scene files of the crate, held in the binary |
+//! | [`tiles`] | parts of images, with errors that know what was not seen |
 
+pub mod agreement;
 pub mod battery;
 pub mod expect;
 pub mod measure;
@@ -23,6 +26,7 @@ pub mod replicated;
 pub mod report;
 pub mod scenes;
 mod task;
+pub mod tiles;
 
 pub use report::{Report, Section};
 pub use task::{Curve, Exhibit, Findings, HeatMap, Picture, Progress, Size, Task, Topic, Trial, run};
