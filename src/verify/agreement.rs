@@ -87,24 +87,51 @@ impl From<&Replicated> for Estimated {
 /// Checks that `a` and `b`, made with independent numbers, estimate one image: the mean of each channel and the worst
 /// tile. Gives something to look at where they hardly do.
 pub fn agreement(checks: &mut Family, name: &str, a: &Estimated, b: &Estimated) -> Option<Exhibit> {
-    checks.holds(format!("{name}: of one size"), a.size == b.size);
     if a.size != b.size {
+        checks.holds(format!("{name}: {:?} and {:?} are the same size", a.size, b.size), false);
         return None;
     }
-    let first = checks.checks().len();
-    let grey = [a, b].iter().all(|image| image.mean[0] == image.mean[1] && image.mean[1] == image.mean[2]);
-    for c in if grey { 1..2 } else { 0..3 } {
-        let (exact, difference) = (b.mean[c].mean, a.mean[c].minus(b.mean[c]));
-        let (se, dof, rounding) = (difference.se, difference.dof, ROUNDING * exact.abs());
-        let evidence = Evidence::Z { exact, estimate: a.mean[c].mean, se, dof, rounding };
-        let channel = if grey { "" } else { [" R", " G", " B"][c] };
-        checks.push(format!("{name}: mean{channel}"), evidence);
+    let zip = |a: &[Estimate], b: &[Estimate]| a.iter().zip(b).map(|(a, b)| a.minus(*b)).collect();
+    let difference = Estimated {
+        size: a.size,
+        mean: [0, 1, 2].map(|c| a.mean[c].minus(b.mean[c])),
+        tiles: [0, 1, 2].map(|c| zip(&a.tiles[c], &b.tiles[c])),
+        pixels: a.pixels.iter().zip(&b.pixels).map(|(a, b)| [0, 1, 2].map(|c| a[c].minus(b[c]))).collect(),
+    };
+    judge(checks, name, b, &difference)
+}
+
+/// The same for replicates that were made with the same numbers, each of `a` with those of one of `b`: the error is that
+/// of their differences, which is small where the estimators are alike, and 0 where they are the same.
+pub fn paired(checks: &mut Family, name: &str, a: &Replicated, b: &Replicated) -> Option<Exhibit> {
+    if a.size != b.size || a.images.len() != b.images.len() {
+        checks.holds(format!("{name}: {:?} and {:?} are the same size", a.size, b.size), false);
+        return None;
     }
-    let each = (0..3).flat_map(|c| a.tiles[c].iter().zip(&b.tiles[c]));
-    let (p, n) = worst(each.map(|(a, b)| a.minus(*b).p_of_zero(ROUNDING * b.mean.abs())));
+    let minus = |(a, b): (&[f64; 3], &[f64; 3])| [0, 1, 2].map(|c| a[c] - b[c]);
+    let image = |(a, b): (&Vec<[f64; 3]>, &Vec<[f64; 3]>)| a.iter().zip(b).map(minus).collect();
+    let difference = Replicated { size: a.size, images: a.images.iter().zip(&b.images).map(image).collect() };
+    judge(checks, name, &b.into(), &(&difference).into())
+}
+
+/// Checks that `difference` is nothing, in a mean of what `of` is.
+fn judge(checks: &mut Family, name: &str, of: &Estimated, difference: &Estimated) -> Option<Exhibit> {
+    let first = checks.checks().len();
+    let grey = of.mean[0] == of.mean[1] && of.mean[1] == of.mean[2];
+    for c in if grey { 1..2 } else { 0..3 } {
+        let (exact, Estimate { mean, se, dof }) = (of.mean[c].mean, difference.mean[c]);
+        let name = format!("{name}: mean{}", if grey { "" } else { [" R", " G", " B"][c] });
+        if exact == 0.0 {
+            checks.holds(format!("{name} is nothing"), mean == 0.0);
+        } else {
+            checks.push(name, Evidence::Z { exact, estimate: exact + mean, se, dof, rounding: ROUNDING * exact.abs() });
+        }
+    }
+    let each = (0..3).flat_map(|c| difference.tiles[c].iter().zip(&of.tiles[c]));
+    let (p, n) = worst(each.map(|(difference, of)| difference.p_of_zero(ROUNDING * of.mean.abs())));
     checks.p(format!("{name}: worst of {} tiles", n / 3), p);
     let suspect = checks.checks()[first..].iter().any(|check| check.p() < picture::SUSPECT);
-    suspect.then(|| picture::of_difference(name, a, b))
+    suspect.then(|| picture::of_difference(name, difference))
 }
 
 #[cfg(test)]
@@ -126,6 +153,7 @@ mod tests {
     fn tiles_find_what_means_hide() {
         let mut same = Family::new("same");
         assert!(agreement(&mut same, "noise", &(&noisy(1, 0.0)).into(), &(&noisy(2, 0.0)).into()).is_none());
+        paired(&mut same, "itself", &noisy(1, 0.0), &noisy(1, 0.0));
         same.assert();
         let mut other = Family::new("other");
         let shown = agreement(&mut other, "noise", &(&noisy(1, 0.02)).into(), &(&noisy(2, 0.0)).into());

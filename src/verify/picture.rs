@@ -2,7 +2,6 @@
 
 use super::agreement::Estimated;
 use super::replicated::Replicated;
-use super::tiles::Estimate;
 use super::{Exhibit, Picture};
 use crate::stats::z;
 
@@ -32,11 +31,10 @@ pub fn of_expected(name: &str, image: &Replicated, exact: [f64; 3]) -> [Exhibit;
     ]
 }
 
-/// How many standard errors each pixel of `a` is above `b`, by the green channel.
-pub fn of_difference(name: &str, a: &Estimated, b: &Estimated) -> Exhibit {
-    let z_of = |difference: Estimate| signed(z(difference.mean, 0.0, difference.se), 6.0);
-    let zs = a.pixels.iter().zip(&b.pixels).map(|(a, b)| z_of(a[1].minus(b[1]))).collect();
-    picture(format!("{name}: z of each pixel's difference, −6 blue to +6 red"), a.size, zs)
+/// How many standard errors each pixel is off 0, by the green channel.
+pub fn of_difference(name: &str, difference: &Estimated) -> Exhibit {
+    let zs = difference.pixels.iter().map(|rgb| signed(z(rgb[1].mean, 0.0, rgb[1].se), 6.0)).collect();
+    picture(format!("{name}: z of each pixel's difference, −6 blue to +6 red"), difference.size, zs)
 }
 
 fn picture(title: String, size: [usize; 2], pixels: Vec<[f32; 3]>) -> Exhibit {

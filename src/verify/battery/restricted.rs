@@ -2,18 +2,18 @@
 //! reflection, local illumination to those with one, Whitted's tree to those whose reflections are all perfect but the
 //! one next to the light.
 
-use super::agreement::{image, scene, small};
+use super::agreement::{samples, scene, small};
 use crate::camera::Camera;
 use crate::desc::{Integrator, SamplerKind, Strategy};
 use crate::integrator::{Classes, Drawn, Method, Observer, radiance};
-use crate::render::Settings;
+use crate::render::{Error, Settings};
 use crate::sampler::{Kind, Sampler, hash};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
-use crate::verify::agreement::agreement;
+use crate::verify::agreement::{agreement, paired};
 use crate::verify::expect::Way;
 use crate::verify::measure::REPLICATES;
-use crate::verify::replicated::{Census, Replicated};
+use crate::verify::replicated::{Census, Replicated, renders};
 use crate::verify::{Findings, Task, Topic, Trial};
 use glam::Vec2;
 use rayon::prelude::*;
@@ -26,36 +26,62 @@ const X2: Topic = Topic {
 
 /// A task a method and scene.
 pub(super) fn tasks() -> Vec<Task> {
-    let truncated = ["cornell-box", "glass-caustics"].into_iter().flat_map(|name| {
-        [(Integrator::Raycast, 0), (Integrator::Local, 1)].map(|(integrator, depth)| {
+    let mut tasks = Vec::new();
+    for name in ["cornell-box", "interior", "glass-caustics"] {
+        for (integrator, depth) in [(Integrator::Raycast, 0), (Integrator::Local, 1)] {
             let subject = format!("{} {name}", format!("{integrator:?}").to_lowercase());
-            Task::new(X2, subject, move |trial, found| truncated(name, integrator, depth, trial, found))
-        })
-    });
-    let whitted = ["glass-caustics", "transport-ds", "transport-ss"]
-        .into_iter()
-        .map(|name| Task::new(X2, format!("whitted {name}"), move |trial, found| whitted(name, trial, found)));
-    truncated.chain(whitted).collect()
-}
-
-/// The method against the path tracer with at most `depth` reflections.
-fn truncated(name: &str, integrator: Integrator, depth: u32, trial: &Trial, found: &mut Findings) {
-    let Some(scene) = scene(&format!("{name}.toml"), found) else { return };
-    let mut census = Census::default();
-    for strategy in [Strategy::Bsdf, Strategy::Light, Strategy::Mis] {
-        let way = |integrator| Way { integrator, strategy, sampler: SamplerKind::Sobol };
-        let rays = trial.pick(5e5, 7e6);
-        let seed = |i| hash(&[trial.seed, strategy as u64, i]);
-        let (one, two) = (small(way(integrator), seed(0)), small(way(Integrator::Path), seed(1)));
-        let two = Settings { max_depth: Some(depth), ..two };
-        let label = way(integrator).to_string();
-        let one = image(&scene, &one, rays, &label, &mut census, found);
-        let two = image(&scene, &two, rays, &format!("{label}, path"), &mut census, found);
-        if let (Some(one), Some(two)) = (one, two) {
-            found.exhibits.extend(agreement(&mut found.checks, &label, &(&one).into(), &(&two).into()));
+            tasks.push(task(subject, name, move |scene, trial, census, found| {
+                truncated(scene, [integrator, Integrator::Path], depth, trial, census, found)
+            }));
         }
     }
-    census.report(found);
+    tasks.extend(
+        ["glass-caustics", "transport-ds", "transport-ss"]
+            .into_iter()
+            .map(|name| task(format!("whitted {name}"), name, whitted)),
+    );
+    tasks
+}
+
+/// A task of the scene's name; errors are checks that fail.
+fn task(
+    subject: String,
+    name: &'static str,
+    work: impl Fn(&Scene, &Trial, &mut Census, &mut Findings) -> Result<(), Error> + Send + Sync + 'static,
+) -> Task {
+    Task::new(X2, subject, move |trial, found| {
+        let Some(scene) = scene(name, found) else { return };
+        let mut census = Census::default();
+        if let Err(e) = work(&scene, trial, &mut census, found) {
+            found.checks.holds(e.to_string(), false);
+        }
+        census.report(found);
+    })
+}
+
+/// The method against the path tracer with at most `depth` reflections, with the same numbers.
+fn truncated(
+    scene: &Scene,
+    [integrator, path]: [Integrator; 2],
+    depth: u32,
+    trial: &Trial,
+    census: &mut Census,
+    found: &mut Findings,
+) -> Result<(), Error> {
+    for strategy in [Strategy::Cosine, Strategy::Bsdf, Strategy::Light, Strategy::Mis] {
+        let settings = |integrator| {
+            let way = Way { integrator, strategy, sampler: SamplerKind::Sobol };
+            Settings { max_depth: Some(depth), ..small(way, hash(&[trial.seed, strategy as u64])) }
+        };
+        let spp = samples(scene, &settings(integrator), trial.pick(2e5, 3e6))?;
+        let [one, two] = [integrator, path].map(|method| renders(scene, &Settings { spp, ..settings(method) }));
+        let (one, two) = (one?, two?);
+        let name = format!("{integrator:?}/{strategy:?}");
+        census.add(&name, &one);
+        census.add(&format!("{name}, path"), &two);
+        found.exhibits.extend(paired(&mut found.checks, &name, &one.beauty, &two.beauty));
+    }
+    Ok(())
 }
 
 /// Counts light as long as no smooth reflection was followed by another reflection.
@@ -83,16 +109,16 @@ impl Observer for Restricted {
     }
 }
 
-fn whitted(name: &str, trial: &Trial, found: &mut Findings) {
-    let Some(scene) = scene(&format!("{name}.toml"), found) else { return };
-    let mut census = Census::default();
+/// Whitted's tree against the paths that it follows, with other numbers: a tree draws them in another order.
+fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findings) -> Result<(), Error> {
     let way = Way { integrator: Integrator::Whitted, strategy: Strategy::Mis, sampler: SamplerKind::Sobol };
-    let settings = small(way, trial.seed);
-    if let Some(tree) = image(&scene, &settings, trial.pick(1e6, 1.5e7), &way.to_string(), &mut census, found) {
-        let paths = restricted(&scene, &settings, trial.pick(4, 64));
-        found.exhibits.extend(agreement(&mut found.checks, &way.to_string(), &(&tree).into(), &(&paths).into()));
-    }
-    census.report(found);
+    let settings = Settings { crop: [0, 8, 32, 32], ..small(way, trial.seed) };
+    let spp = samples(scene, &settings, trial.pick(1e6, 1.5e7))?;
+    let tree = renders(scene, &Settings { spp, ..settings.clone() })?;
+    census.add("tree", &tree);
+    let paths = restricted(scene, &settings, u64::from(spp));
+    found.exhibits.extend(agreement(&mut found.checks, &way.to_string(), &(&tree.beauty).into(), &(&paths).into()));
+    Ok(())
 }
 
 /// The path tracer's image of the paths that Whitted's method follows, with so many samples a pixel and replicate.
@@ -109,7 +135,7 @@ fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
         radiance(&method, &ray, &mut u, &mut watch);
         watch.sum
     };
-    let [width, height] = settings.size;
+    let [x0, y0, x1, y1] = settings.crop;
     let pixel = |place: [u32; 2], replicate: u64| {
         let first = replicate * samples;
         let sums = (first..first + samples).map(|index| sample(place, index));
@@ -117,7 +143,10 @@ fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
         sum.map(|x| x / samples as f64)
     };
     let image = |replicate: u64| {
-        (0..height).flat_map(|y| (0..width).map(move |x| [x, y])).map(|place| pixel(place, replicate)).collect()
+        (y0..y1).flat_map(|y| (x0..x1).map(move |x| [x, y])).map(|place| pixel(place, replicate)).collect()
     };
-    Replicated { size: settings.size.map(|n| n as usize), images: (0..REPLICATES).into_par_iter().map(image).collect() }
+    Replicated {
+        size: [(x1 - x0) as usize, (y1 - y0) as usize],
+        images: (0..REPLICATES).into_par_iter().map(image).collect(),
+    }
 }

@@ -79,7 +79,7 @@ fn run(name: &str, row: &str, trial: &Trial, found: &mut Findings) {
         let ways = ways(expect);
         for (i, &way) in ways.iter().enumerate() {
             // The renderer's own way gets most: it shows what the row detects.
-            let rays = if i + 1 == ways.len() { trial.pick(1e6, 3e7) } else { trial.pick(1e5, 3e6) };
+            let rays = if i + 1 == ways.len() { trial.pick(7e5, 2.5e7) } else { trial.pick(5e4, 1.5e6) };
             check(&scene, size, expect, way, Effort { aim, rays }, trial, &mut census, found);
         }
     }
