@@ -9,14 +9,15 @@
 
 use super::measure::{REPLICATES, SE_PER_DETECTED};
 use super::picture;
-use super::replicated::{Renders, Replicated, renders, skewness};
+use super::replicated::{Census, Renders, Replicated, renders, skewness};
+use super::tiles::{estimates, unseen, worst};
 use super::{Findings, Trial};
 use crate::desc::{Expect, Filter, Integrator, SamplerKind, Strategy};
 use crate::film::CLASSES;
 use crate::render::{Error, Settings};
 use crate::sampler::hash;
 use crate::scene::Scene;
-use crate::stats::{Moments, two_sided_t};
+use crate::stats::{Evidence, Moments};
 
 /// Relative error that f32 arithmetic may leave on an estimate without variance.
 pub const ROUNDING: f64 = 1e-5;
@@ -80,6 +81,7 @@ pub fn check(
     way: Way,
     effort: Effort,
     trial: &Trial,
+    census: &mut Census,
     found: &mut Findings,
 ) {
     let region = expect.region.unwrap_or([0, 0, size[0], size[1]]);
@@ -100,23 +102,20 @@ pub fn check(
         threads: 0,
         tile: u32::MAX,
     };
+    let seed = hash(&[trial.seed, way.integrator as u64, way.strategy as u64, way.sampler as u64]);
     let render = || {
         let spp = match expect.spp {
             Some(spp) => spp.div_ceil(REPLICATES as u32).next_power_of_two(),
             None => samples(scene, &settings, expect, effort)?,
         };
-        renders(
-            scene,
-            &Settings {
-                spp,
-                seed: hash(&[trial.seed, way.integrator as u64, way.strategy as u64, way.sampler as u64]),
-                ..settings.clone()
-            },
-        )
+        Ok((spp, renders(scene, &Settings { spp, seed, ..settings.clone() })?))
     };
     match render() {
-        Ok(renders) => judge(&way.to_string(), expect, &renders, found),
-        Err(e) => found.checks.holds(format!("{way}: {e}"), false),
+        Ok((spp, renders)) => {
+            judge(&way.to_string(), expect, &renders, spp, found);
+            census.add(&way.to_string(), &renders);
+        }
+        Err::<_, Error>(e) => found.checks.holds(format!("{way}: {e}"), false),
     }
 }
 
@@ -131,23 +130,24 @@ fn samples(scene: &Scene, settings: &Settings, expect: &Expect, effort: Effort) 
     let pixels = (x1 - x0) * (y1 - y0);
     let spp = FIRST.div_ceil(pixels).next_power_of_two();
     let pilot = renders(scene, &Settings { spp, seed: hash(&[settings.seed, 0x5049_4c4f_54]), ..settings.clone() })?;
-    let (mut by_aim, mut by_skewness) = (1.0, 1.0f64);
-    for (_, exact, image) in quantities(expect, &pilot) {
-        let (channel, exact) = brightest(exact);
+    let spp = f64::from(spp);
+
+    // Layers are parts: what the whole needs decides for the aim, any of them for the skewness.
+    let quantities = quantities(expect, &pilot).into_iter().map(|(_, exact, image)| (brightest(exact), image));
+    let bright: Vec<_> = quantities.filter(|((_, exact), _)| *exact > 0.0).collect();
+    let mut wanted = SE_PER_DETECTED * unseen(1.0, f64::from(pixels) * REPLICATES as f64) / effort.aim;
+    for (i, ((channel, exact), image)) in bright.into_iter().enumerate() {
         let means = image.means(image.whole(), channel);
         let moments: Moments = means.iter().copied().collect();
-        if exact > 0.0 {
-            by_skewness = by_skewness.max((skewness(&means) / SKEWNESS).powi(2));
+        if i == 0 {
+            let ratio = SE_PER_DETECTED * moments.standard_error() / (effort.aim * exact);
+            wanted = wanted.max(1.2 * spp * ratio * ratio);
         }
-        // Layers are parts: what the whole needs decides.
-        if by_aim == 1.0 && exact > 0.0 {
-            by_aim = 1.2 * (SE_PER_DETECTED * moments.standard_error() / (effort.aim * exact)).powi(2);
-        }
+        wanted = wanted.max(spp * (skewness(&means) / SKEWNESS).powi(2));
     }
-    let most = effort.rays / (pilot.rays as f64 / f64::from(spp));
+    let most = effort.rays * spp / pilot.rays as f64;
     let least = f64::from((2 * FIRST).div_ceil(pixels));
-    let wanted = (f64::from(spp) * by_aim.max(by_skewness)).min(most).max(least);
-    Ok((wanted as u32).clamp(1, 1 << 24).next_power_of_two())
+    Ok((wanted.min(most).max(least) as u32).clamp(1, 1 << 24).next_power_of_two())
 }
 
 /// What is expected: name, exact RGB, image.
@@ -163,68 +163,35 @@ fn brightest(rgb: [f64; 3]) -> (usize, f64) {
     (0..3).map(|c| (c, rgb[c])).fold((0, rgb[0]), |best, x| if x.1 > best.1 { x } else { best })
 }
 
-/// Compares with what is expected.
-fn judge(way: &str, expect: &Expect, renders: &Renders, found: &mut Findings) {
+/// Compares with what is expected; `samples` of a pixel are in each replicate.
+fn judge(way: &str, expect: &Expect, renders: &Renders, samples: u32, found: &mut Findings) {
     let granted = ROUNDING + expect.tolerance;
     for (what, exact, image) in quantities(expect, renders) {
-        // Grey answers have three equal channels: one is tested.
-        let channels = if exact.iter().all(|&x| x == exact[0]) { 1..2 } else { 0..3 };
         let first = found.checks.checks().len();
-        for c in channels.clone() {
+        // Grey answers have three equal channels: one is tested.
+        let grey = exact.iter().all(|&x| x == exact[0]);
+        for c in if grey { 1..2 } else { 0..3 } {
+            let name = if grey { format!("{what} {way}") } else { format!("{what} {way} {}", ["R", "G", "B"][c]) };
             let moments = image.moments(image.whole(), c);
-            let name = match channels.len() {
-                1 => format!("{what} {way}"),
-                _ => format!("{what} {way} {}", ["R", "G", "B"][c]),
-            };
             if exact[c] == 0.0 {
                 // No radiance is negative: a mean of 0 is 0 in all samples.
                 found.checks.holds(format!("{name} is nothing"), moments.mean() == 0.0);
             } else {
-                found.checks.replicated(name, exact[c], &moments, granted);
+                let [n, dof] =
+                    [moments.n() as f64 * image.pixel_count() * f64::from(samples), moments.n() as f64 - 1.0];
+                let se = moments.standard_error().hypot(unseen(exact[c], n));
+                let (exact, rounding) = (exact[c], granted * exact[c]);
+                found.checks.push(name, Evidence::Z { exact, estimate: moments.mean(), se, dof, rounding });
             }
         }
         let (c, value) = brightest(exact);
-        if value > 0.0 {
-            let (p, tiles) = worst_tile(image, c, value, granted);
-            found.checks.p(format!("{what} {way}: worst of {tiles} tiles"), p);
+        if value > 0.0 && image.pixel_count() > 1.0 {
+            let tiles = estimates(image, c, value, samples).into_iter();
+            let (p, n) = worst(tiles.map(|tile| tile.minus_exact(value).p_of_zero(granted * value)));
+            found.checks.p(format!("{what} {way}: worst of {n} tiles"), p);
         }
         if found.checks.checks()[first..].iter().any(|check| check.p() < picture::SUSPECT) {
             found.exhibits.extend(picture::of_expected(&format!("{what} {way}"), image, exact));
         }
     }
-    found.checks.holds(format!("{way}: every sample is a radiance"), renders.bad_count == 0);
-    if let Some((seed, bad)) = renders.bad.first() {
-        found.words.push(format!(
-            "{way}: {} samples are no radiance; the first is sample {} of pixel {:?} with seed {seed}: {:?}.",
-            renders.bad_count, bad.index, bad.pixel, bad.rgb
-        ));
-    }
-}
-
-/// p of the worst of at most 16 tiles, and how many there are. Tiles see fewer rare events than the region, so their
-/// skewness, pooled over all of them, is taken out of t by Hall's transformation (Hall 1992, "On the removal of skewness
-/// by transformation"):
-///
-/// ```text
-/// g(t) = t + a t² + a² t³/3 + a/2,   a = γ/(3 √n)
-/// ```
-fn worst_tile(image: &Replicated, channel: usize, exact: f64, granted: f64) -> (f64, usize) {
-    let side = image.size[0].max(image.size[1]).div_ceil(4);
-    let tiles = image.tiles(side);
-    let means: Vec<Vec<f64>> = tiles.iter().map(|&tile| image.means(tile, channel)).collect();
-    let gamma = means.iter().map(|m| skewness(m)).sum::<f64>() / tiles.len() as f64;
-    let a = gamma / (3.0 * (REPLICATES as f64).sqrt());
-    let p_of = |means: &Vec<f64>| {
-        let moments: Moments = means.iter().copied().collect();
-        let off = moments.mean() - exact;
-        let t = (off.abs() - granted * exact).max(0.0).copysign(off) / moments.standard_error();
-        match t {
-            _ if off.abs() <= granted * exact => 1.0,
-            _ if t.is_infinite() => 0.0,
-            t => two_sided_t(t + a * t * t + a * a * t.powi(3) / 3.0 + a / 2.0, REPLICATES as f64 - 1.0),
-        }
-    };
-    let p = means.iter().map(p_of).fold(1.0, f64::min);
-    // 1 − (1 − p)^n without cancellation.
-    (-(tiles.len() as f64 * (-p).ln_1p()).exp_m1(), tiles.len())
 }

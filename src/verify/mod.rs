@@ -7,6 +7,7 @@
 //!
 //! | module | what it makes |
 //! | --- | --- |
+//! | [`agreement`] | two images of one thing |
 //! | [`battery`] | the tasks that check this crate |
 //! | [`calibration`] | whether checks fail as often as they should |
 //! | [`chart`] | bins of equal solid angle, and the goodness of fit of a density of directions |
@@ -18,7 +19,9 @@
 //! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
 //! | [`scene`] | the tasks that check a scene file |
 //! | [`scenes`] | the scene files of the crate, held in the binary |
+//! | [`tiles`] | parts of images, with errors that know what was not seen |
 
+pub mod agreement;
 pub mod battery;
 pub mod calibration;
 pub mod chart;
@@ -31,6 +34,7 @@ pub mod scattering;
 pub mod scene;
 pub mod scenes;
 mod task;
+pub mod tiles;
 
 pub use report::{Report, Section};
 pub use task::{Curve, Exhibit, Findings, HeatMap, Picture, Progress, Size, Task, Topic, Trial, run};

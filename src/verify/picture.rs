@@ -1,8 +1,9 @@
 //! What a failing image looks like.
 
+use super::agreement::Estimated;
 use super::replicated::Replicated;
 use super::{Exhibit, Picture};
-use crate::stats::{Moments, z};
+use crate::stats::z;
 
 /// A check with a p below this is shown, whether or not it fails at the significance of its run.
 pub const SUSPECT: f64 = 1e-6;
@@ -21,25 +22,19 @@ fn signed(x: f64, full: f64) -> [f32; 3] {
 pub fn of_expected(name: &str, image: &Replicated, exact: [f64; 3]) -> [Exhibit; 2] {
     let channel = (0..3).fold(0, |best, c| if exact[c] > exact[best] { c } else { best });
     let scale = if exact[channel] > 0.0 { exact[channel] } else { 1.0 };
-    let pixels = pixels(image, channel);
-    let ratio = pixels.iter().map(|m| [(0.5 * m.mean() / scale) as f32; 3]).collect();
-    let zs = pixels.iter().map(|m| signed(z(m.mean(), exact[channel], m.standard_error()), 6.0)).collect();
+    let pixels = image.pixels();
+    let ratio = pixels.iter().map(|m| [(0.5 * m[channel].mean() / scale) as f32; 3]).collect();
+    let zs = pixels.iter().map(|m| signed(m[channel].z(exact[channel]), 6.0)).collect();
     [
         picture(format!("{name}: half of estimate/exact (grey is right)"), image.size, ratio),
         picture(format!("{name}: z of each pixel, −6 blue to +6 red"), image.size, zs),
     ]
 }
 
-/// How many standard errors each pixel of `a` is above `b`, by the green channel.
-pub fn of_difference(name: &str, a: &Replicated, b: &Replicated) -> Exhibit {
-    let z_of = |(a, b): (&Moments, &Moments)| signed(crate::stats::two_sample_z(a, b), 6.0);
-    let zs = pixels(a, 1).iter().zip(&pixels(b, 1)).map(z_of).collect();
-    picture(format!("{name}: z of each pixel's difference, −6 blue to +6 red"), a.size, zs)
-}
-
-fn pixels(image: &Replicated, channel: usize) -> Vec<Moments> {
-    let n = image.size[0] * image.size[1];
-    (0..n).map(|i| image.images.iter().map(|pixels| pixels[i][channel]).collect()).collect()
+/// How many standard errors each pixel is off 0, by the green channel.
+pub fn of_difference(name: &str, difference: &Estimated) -> Exhibit {
+    let zs = difference.pixels.iter().map(|rgb| signed(z(rgb[1].mean, 0.0, rgb[1].se), 6.0)).collect();
+    picture(format!("{name}: z of each pixel's difference, −6 blue to +6 red"), difference.size, zs)
 }
 
 fn picture(title: String, size: [usize; 2], pixels: Vec<[f32; 3]>) -> Exhibit {

@@ -1,6 +1,7 @@
 //! Images in independent replicates: what a mean over any part of them is uncertain by is known without assumptions
 //! about pixels.
 
+use super::Findings;
 use super::measure::REPLICATES;
 use crate::film::{CLASSES, Film};
 use crate::render::{BadSample, Error, Settings, render};
@@ -28,12 +29,15 @@ impl Replicated {
         [0, 0, self.size[0], self.size[1]]
     }
 
-    /// Squares of `side` pixels that cover the image; smaller ones at the far edges.
-    pub fn tiles(&self, side: usize) -> Vec<Area> {
-        let [w, h] = self.size;
-        let steps = |to: usize| (0..to).step_by(side.max(1));
-        let tile = |x: usize, y: usize| [x, y, (x + side).min(w), (y + side).min(h)];
-        steps(h).flat_map(|y| steps(w).map(move |x| tile(x, y))).collect()
+    /// How many pixels it has.
+    pub fn pixel_count(&self) -> f64 {
+        (self.size[0] * self.size[1]) as f64
+    }
+
+    /// Moments of each pixel over the replicates, row by row, RGB.
+    pub fn pixels(&self) -> Vec<[Moments; 3]> {
+        let moments = |i: usize, c: usize| self.images.iter().map(|image| image[i][c]).collect();
+        (0..self.size[0] * self.size[1]).map(|i| [0, 1, 2].map(|c| moments(i, c))).collect()
     }
 
     /// Mean of a channel over an area, in each replicate.
@@ -64,6 +68,32 @@ pub struct Renders {
     pub bad_count: u64,
     /// Rays traced.
     pub rays: u64,
+}
+
+/// Counts samples that are no radiance, over any number of renders.
+#[derive(Clone, Debug, Default)]
+pub struct Census {
+    count: u64,
+    first: Vec<String>,
+}
+
+impl Census {
+    /// Looks at the samples of `renders`, which are told apart by `name`.
+    pub fn add(&mut self, name: &str, renders: &Renders) {
+        self.count += renders.bad_count;
+        if let Some((seed, bad)) = renders.bad.first() {
+            self.first.push(format!(
+                "{name}: {} samples are not finite or negative; the first is sample {} of pixel {:?} with seed {seed}: {:?}.",
+                renders.bad_count, bad.index, bad.pixel, bad.rgb
+            ));
+        }
+    }
+
+    /// The check that there are none, and words about the first of each render.
+    pub fn report(self, found: &mut Findings) {
+        found.checks.holds("every sample is finite and not negative", self.count == 0);
+        found.words.extend(self.first);
+    }
 }
 
 /// Renders [`REPLICATES`] times with seeds that are made of `settings.seed`: each is one replicate of `settings.spp`
@@ -105,15 +135,6 @@ pub fn skewness(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn tiles_cover_every_pixel_once() {
-        let image = Replicated { size: [5, 3], images: vec![(0..15).map(|i| [f64::from(i); 3]).collect()] };
-        let sum = |[x0, y0, x1, y1]: Area| image.means([x0, y0, x1, y1], 1)[0] * ((x1 - x0) * (y1 - y0)) as f64;
-        assert_eq!(image.tiles(2).len(), 6);
-        assert!((image.tiles(2).into_iter().map(sum).sum::<f64>() - 105.0).abs() < 1e-12);
-        assert_eq!(image.means(image.whole(), 0), [7.0]);
-    }
 
     #[test]
     fn rare_events_are_skew() {

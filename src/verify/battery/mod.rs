@@ -1,9 +1,11 @@
 //! The tasks that check this crate.
 
+mod agreement;
 mod camera;
 mod filter;
 mod light;
 mod lobes;
+mod restricted;
 mod sampler;
 mod scenes;
 mod warp;
@@ -12,6 +14,6 @@ use super::Task;
 
 /// Every check of the crate, row by row.
 pub fn tasks() -> Vec<Task> {
-    let rows: &[fn() -> Vec<Task>] = &[camera::tasks, filter::tasks, light::tasks, lobes::tasks, sampler::tasks, scenes::tasks, warp::tasks];
+    let rows: &[fn() -> Vec<Task>] = &[agreement::tasks, camera::tasks, filter::tasks, light::tasks, lobes::tasks, restricted::tasks, sampler::tasks, scenes::tasks, warp::tasks];
     rows.iter().flat_map(|row| row()).collect()
 }
