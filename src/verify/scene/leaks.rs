@@ -7,6 +7,7 @@
 
 use super::surfaces::corners;
 use super::topology::{Edges, signed_volume, winding};
+use super::worn::refracts;
 use super::{Subject, count, unique};
 use crate::desc::{self, Model, Object, Shape};
 use crate::math::{Frame, Ray, Transform, offset_origin};
@@ -114,7 +115,10 @@ fn undeclared(subject: &Subject, trial: &Trial, found: &mut Findings) {
         }
         let surface = Surface::new(scene, &group);
         let edges = Edges::of(&surface.triangles);
-        let bent = group.iter().map(|i| &scene.objects[*i]).find(|o| refracts(scene, o));
+        let bent = group
+            .iter()
+            .map(|i| &scene.objects[*i])
+            .find(|o| scene.materials.get(o.material).is_some_and(|m| refracts(&m.model)));
         if !edges.closed() {
             open.push(format!("`{name}` ({} of {} edges)", edges.open + edges.twisted, edges.all));
             if let Some(object) = bent {
@@ -155,19 +159,6 @@ fn triangles_of(scene: &desc::Scene, object: &Object) -> usize {
         Some(Shape::Mesh(mesh)) => mesh.indices.len(),
         _ => 0,
     }
-}
-
-/// Whether light that enters is bent, so that there must be a way out.
-fn refracts(scene: &desc::Scene, object: &Object) -> bool {
-    fn model(m: &Model) -> bool {
-        match m {
-            Model::Dielectric { .. } => true,
-            Model::MetallicRoughness(m) => m.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0),
-            Model::Mix(parts) => parts.iter().any(|(weight, part)| *weight > 0.0 && model(part)),
-            _ => false,
-        }
-    }
-    scene.materials.get(object.material).is_some_and(|m| model(&m.model))
 }
 
 /// Objects alone in space.

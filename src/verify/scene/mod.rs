@@ -3,9 +3,10 @@
 //!
 //! | topic | what must hold |
 //! | --- | --- |
-//! | [`data`](self) | numbers are what readers promise; what is odd but survives is said in words |
+//! | `data` | numbers are what readers promise; what is odd but survives is said in words |
 //! | `normals` | shading frames are usable; triangles against their normals are counted |
 //! | `leaks` | no ray gets out of a surface that is closed |
+//! | `material` | each material scatters by its density, both ways alike, no more than it receives; made white, all of it |
 //! | `furnace` | in a uniform environment no pixel is brighter than it, and with everything made white none darker |
 //! | `census` | no sample is NaN, infinite or negative |
 //!
@@ -16,12 +17,15 @@ mod census;
 mod data;
 mod furnace;
 mod leaks;
+mod material;
 mod normals;
 mod one_sided;
+mod places;
 mod surfaces;
 mod topology;
 mod view;
 mod white;
+mod worn;
 
 use super::Task;
 use crate::desc;
@@ -40,8 +44,8 @@ struct Subject {
 /// tasks, and so their numbers, depend on the scene alone.
 pub fn tasks(desc: &Arc<desc::Scene>, scene: &Arc<Scene>) -> Vec<Task> {
     let subject = Subject { desc: desc.clone(), scene: scene.clone() };
-    let parts: [fn(&Subject) -> Vec<Task>; 5] =
-        [data::tasks, normals::tasks, leaks::tasks, furnace::tasks, census::tasks];
+    let parts: [fn(&Subject) -> Vec<Task>; 6] =
+        [data::tasks, normals::tasks, leaks::tasks, material::tasks, furnace::tasks, census::tasks];
     parts.iter().flat_map(|part| part(&subject)).collect()
 }
 

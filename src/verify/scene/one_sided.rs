@@ -2,10 +2,10 @@
 
 use crate::stats::{Evidence, two_sided_t};
 
-/// Evidence against `estimate` ≤ `limit`: what it lies below the limit is granted beside `rounding`, so that only an
-/// excess counts, and the smallest bias that is found includes that slack.
+/// Evidence against `estimate` ≤ `limit`: against the value of that hypothesis which is nearest to it, so that only an
+/// excess counts ([`Evidence::at_most`] for what is no mean of replicates); an error of `rounding` is granted.
 pub(super) fn at_most(limit: f64, estimate: f64, se: f64, dof: f64, rounding: f64) -> Evidence {
-    Evidence::Z { exact: limit, estimate, se, dof, rounding: rounding + (limit - estimate).max(0.0) }
+    Evidence::Z { exact: limit.min(estimate), estimate, se, dof, rounding }
 }
 
 /// p of the worst of several estimates ± standard error that must not exceed `limit`, as if it had stood alone: the
@@ -38,6 +38,6 @@ mod tests {
         let alone = worst_p([(1.03, 0.01)].into_iter(), 1.0, 63.0);
         let among = worst_p([(0.9, 0.01), (1.03, 0.01), (1.0, 0.01)].into_iter(), 1.0, 63.0);
         assert!((alone - 0.002).abs() < 1e-3 && (among / alone - 3.0).abs() < 0.02, "{alone} {among}");
-        assert_eq!(worst_p([(f64::NAN, 0.0)].into_iter(), 1.0, 63.0), 1.0);
+        assert!(worst_p([(0.5, 0.0), (0.9, 0.1)].into_iter(), 1.0, 63.0) > 0.999);
     }
 }

@@ -1,0 +1,241 @@
+//! Every material of a file, as compiled: does it scatter by its density, both ways alike, and no more than it
+//! receives?
+//!
+//! A material is looked at where its textures are extreme ([`super::places`]). Beside it stands the same material made
+//! white ([`super::white`]): what that loses is no absorption by colour, but energy that the model itself drops.
+
+use super::places::{Place, places};
+use super::white::lossless;
+use super::worn::{Worn, parameters, refracts};
+use super::{Subject, count, unique};
+use crate::desc;
+use crate::material::Material;
+use crate::stats::{Evidence, Moments};
+use crate::texture::Textures;
+use crate::verify::scattering::{Claims, at_cosine, density, draws, energy, reciprocity, sampled};
+use crate::verify::{Curve, Exhibit, Findings, Task, Topic, Trial};
+use std::sync::Arc;
+
+const TOPIC: Topic = Topic {
+    id: "material",
+    title: "f is reciprocal, its draws follow their density, and ∫ f |cos θ| dω ≤ 1",
+    source: "conservation of energy; Helmholtz; Pearson's χ²",
+};
+
+/// Most materials, by size.
+const MATERIALS: [usize; 2] = [60, 600];
+
+/// Places of all materials together, by size.
+const PLACES: [usize; 2] = [90, 900];
+
+/// Most places of a material, by size.
+const PLACES_OF_ONE: [usize; 2] = [6, 30];
+
+/// Cosines of the angles to the normal, at a material's first place and at the others.
+const COSINES: [&[f64]; 2] = [&[0.97, 0.7, 0.4, 0.15, 0.05, 0.01], &[0.7, 0.15, 0.02]];
+
+/// Cosines at which draws are counted in bins, at a material's first place.
+const COUNTED: [f64; 2] = [0.7, 0.15];
+
+/// Relative error of tables in energy, and of f32 in f.
+const CLAIMS: Claims = Claims { lossless: false, reciprocal: true, two_sided: false, granted: 1e-3, rounding: 1e-2 };
+
+/// A task for each material that something wears, equal ones once.
+pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
+    let all = &subject.desc.materials;
+    let names = unique(all.iter().map(|m| &*m.name), "material");
+    let mut worn = vec![false; all.len()];
+    subject.desc.objects.iter().for_each(|o| worn[o.material] = true);
+    let scatters = |m: &desc::Material| m.model != desc::Model::Absorb;
+    let equal = |a: &desc::Material, b: &desc::Material| a.model == b.model;
+
+    // Materials that scatter alike are one.
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (i, material) in all.iter().enumerate().filter(|(i, m)| worn[*i] && scatters(m)) {
+        match groups.iter_mut().find(|group| equal(&all[group[0]], material)) {
+            Some(group) => group.push(i),
+            None => groups.push(vec![i]),
+        }
+    }
+    let n = groups.len();
+    let left_out: Arc<str> = names
+        .iter()
+        .zip(all)
+        .zip(&worn)
+        .filter(|((_, m), worn)| !**worn || !scatters(m))
+        .map(|((name, _), worn)| format!("`{name}` {}", if *worn { "scatters nothing" } else { "is worn by nothing" }))
+        .collect::<Vec<_>>()
+        .join(", ")
+        .into();
+    let task = |(number, group): (usize, Vec<usize>)| {
+        let subject = subject.clone();
+        let same: Vec<String> = group[1..].iter().map(|i| format!("`{}`", names[*i])).collect();
+        let (index, name, left_out) = (group[0], names[group[0]].clone(), left_out.clone());
+        Task::new(TOPIC, name.clone(), move |trial, found| {
+            if number >= trial.pick(MATERIALS[0], MATERIALS[1]) {
+                found.words.push(format!("`{name}`: left out of this size, which takes {number} materials"));
+                return;
+            }
+            let most = (trial.pick(PLACES[0], PLACES[1]) / n).clamp(1, trial.pick(PLACES_OF_ONE[0], PLACES_OF_ONE[1]));
+            Exam { subject: &subject, index, name: &name, most }.sit(trial, found);
+            if !same.is_empty() {
+                found.words.push(format!("the same of {}, which scatter alike", same.join(", ")));
+            }
+            if number == 0 && !left_out.is_empty() {
+                found.words.push(format!("not examined: {left_out}"));
+            }
+        })
+    };
+    groups.into_iter().enumerate().map(task).collect()
+}
+
+/// One material under test.
+struct Exam<'a> {
+    subject: &'a Subject,
+    index: usize,
+    name: &'a str,
+    /// Most places.
+    most: usize,
+}
+
+/// An albedo with where it was found.
+#[derive(Clone, Debug)]
+struct Albedo {
+    value: f64,
+    se: f64,
+    at: String,
+}
+
+impl Exam<'_> {
+    fn sit(&self, trial: &Trial, found: &mut Findings) {
+        let desc = &self.subject.desc;
+        let (written, textures) = (&desc.materials[self.index], &self.subject.scene.textures);
+        let white = lossless(written).map(|m| Material::compile(&m));
+        let mut all = places(desc, written, self.index);
+        let left = all.len().saturating_sub(self.most);
+        all.truncate(self.most);
+        let two_sided = refracts(&written.model);
+        let claims = Claims { two_sided, ..CLAIMS };
+        let (mut albedos, mut losses) = (Vec::new(), Vec::new());
+        let mut lines = Vec::new();
+        for (number, place) in all.iter().enumerate() {
+            let name = if place.name.is_empty() { "anywhere" } else { &*place.name };
+            let worn = Worn { material: &self.subject.scene.materials[self.index], textures, place };
+            let trial = &trial.part(name);
+            reciprocity(found, trial, name, &worn, &claims);
+            for side in [1.0, -1.0].into_iter().take(if two_sided { 2 } else { 1 }) {
+                let cosines = COSINES[usize::from(number > 0)];
+                let curve = self.angles(found, trial, name, &worn, side, cosines, number == 0);
+                let lost = white.as_ref().map(|w| self.loss(found, trial, name, w, textures, place, side, cosines));
+                let below = if side < 0.0 { ", from below" } else { "" };
+                for lane in 0..3 {
+                    let line = |of: &[[Albedo; 3]]| {
+                        let point = |(mu, a): (&f64, &[Albedo; 3])| [*mu, a[lane].value, a[lane].se];
+                        cosines.iter().zip(of).rev().map(point).collect::<Vec<_>>()
+                    };
+                    lines.push((format!("{name}{below}, {}", ["red", "green", "blue"][lane]), line(&curve)));
+                }
+                albedos.extend(curve.into_iter().flatten());
+                if let Some(white) = lost {
+                    let points = cosines.iter().zip(&white).rev().map(|(mu, a)| [*mu, a.value, a.se]).collect();
+                    lines.push((format!("{name}{below}, made white"), points));
+                    losses.extend(white);
+                }
+            }
+        }
+        let axes = ["cos θ", "directional albedo"];
+        found.exhibits.push(Exhibit::Curve(Curve { title: format!("albedo of `{}`", self.name), axes, lines }));
+        found.words.extend(self.verdict(&albedos, &losses));
+        if left > 0 {
+            found.words.push(format!("`{}`: {} left out of this size", self.name, count(left, "place")));
+        }
+    }
+
+    /// All that must hold at one place, angle by angle; returns albedos by lane.
+    fn angles(
+        &self,
+        found: &mut Findings,
+        trial: &Trial,
+        name: &str,
+        worn: &Worn,
+        side: f64,
+        cosines: &[f64],
+        first: bool,
+    ) -> Vec<[Albedo; 3]> {
+        let mut curve = Vec::new();
+        for &mu in cosines {
+            let wo = at_cosine(side * mu);
+            let (bsdf, at) = (worn.towards(wo), format!("{name}, cos {}", side * mu));
+            let trial = &trial.part(&at);
+            draws(found, trial, &at, &bsdf, wo, CLAIMS.rounding);
+            let sampled = sampled(trial, &bsdf, wo, 2e-3, trial.pick(1 << 10, 1 << 15));
+            if first && COUNTED.contains(&mu) {
+                let integrals = density(found, trial, &at, &bsdf, wo);
+                energy(found, &at, &CLAIMS, &integrals, &sampled);
+            } else {
+                let brightest = (0..3).max_by(|a, b| sampled.all[*a].mean().total_cmp(&sampled.all[*b].mean()));
+                let evidence = Evidence::at_most(1.0, &sampled.all[brightest.unwrap_or(0)], CLAIMS.granted);
+                found.checks.push(format!("{at}: albedo ≤ 1"), evidence);
+            }
+            let at = self.place(worn.place, side * mu);
+            curve.push(sampled.all.each_ref().map(|m| albedo(m, &at)));
+        }
+        curve
+    }
+
+    /// What the material, made white, sends on at each angle: it must be all.
+    fn loss(
+        &self,
+        found: &mut Findings,
+        trial: &Trial,
+        name: &str,
+        white: &Material,
+        textures: &Textures,
+        place: &Place,
+        side: f64,
+        cosines: &[f64],
+    ) -> Vec<Albedo> {
+        let worn = Worn { material: white, textures, place };
+        let one = |&mu: &f64| {
+            let (wo, at) = (at_cosine(side * mu), format!("{name}, made white, cos {}", side * mu));
+            let sampled = sampled(&trial.part(&at), &worn.towards(wo), wo, 2e-3, trial.pick(1 << 10, 1 << 15));
+            found.checks.replicated(format!("{at}: albedo = 1"), 1.0, &sampled.all[1], CLAIMS.granted);
+            albedo(&sampled.all[1], &self.place(place, side * mu))
+        };
+        cosines.iter().map(one).collect()
+    }
+
+    /// "roughness 0.80, cos 0.1".
+    fn place(&self, place: &Place, mu: f64) -> String {
+        let parameters = parameters(&self.subject.desc.materials[self.index], &self.subject.scene.textures, place);
+        let parts = [place.name.clone(), parameters, format!("cos {mu}")];
+        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+    }
+
+    /// "`gold`: reflects at most 0.94 (…)", and what it loses or creates.
+    fn verdict(&self, albedos: &[Albedo], whites: &[Albedo]) -> Vec<String> {
+        let name = self.name;
+        let by = |a: &&Albedo, b: &&Albedo| a.value.total_cmp(&b.value);
+        let Some((most, least)) = albedos.iter().max_by(by).zip(albedos.iter().min_by(by)) else { return Vec::new() };
+        let text = |a: &Albedo| format!("{:.3} ± {:.3} ({})", a.value, a.se, a.at);
+        let mut words = vec![format!("`{name}`: sends on at most {}, at least {}", text(most), text(least))];
+        if most.value - 1.0 > 6.0 * most.se + CLAIMS.granted {
+            words.push(format!("`{name}`: creates energy: {:.2} % at {}", 100.0 * (most.value - 1.0), most.at));
+        }
+        let Some(worst) = whites.iter().max_by(|a, b| (a.value - 1.0).abs().total_cmp(&(b.value - 1.0).abs())) else {
+            return words;
+        };
+        let (off, se) = (100.0 * (worst.value - 1.0), 100.0 * worst.se);
+        if off.abs() > 6.0 * se + 100.0 * CLAIMS.granted {
+            let what = if off < 0.0 { "loses" } else { "creates" };
+            words.push(format!("`{name}`: made white it {what} {:.2} ± {se:.2} % at {}", off.abs(), worst.at));
+        } else {
+            words.push(format!("`{name}`: made white it sends on all, within {:.2} ± {se:.2} %", off.abs()));
+        }
+        words
+    }
+}
+
+fn albedo(m: &Moments, at: &str) -> Albedo {
+    Albedo { value: m.mean(), se: m.standard_error(), at: at.into() }
+}

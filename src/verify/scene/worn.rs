@@ -1,0 +1,87 @@
+//! A compiled material at one place, as a scattering function under test.
+
+use super::places::Place;
+use crate::bsdf::Bsdf;
+use crate::desc::{self, Model, Roughness};
+use crate::material::Material;
+use crate::material::param::{self, Point};
+use crate::shape::Surface;
+use crate::texture::Textures;
+use crate::verify::scattering::{Draw, Rgb, Scattering};
+use glam::{DVec3, Vec3};
+
+/// A material where it is looked at. Which lobe is drawn how often depends on `wo`, so that every question makes the
+/// lobes anew; [`towards`](Self::towards) keeps them for one `wo`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Worn<'a> {
+    pub material: &'a Material,
+    pub textures: &'a Textures,
+    pub place: &'a Place,
+}
+
+impl Worn<'_> {
+    /// Its lobes for light along `wo`.
+    pub(super) fn towards(&self, wo: DVec3) -> Bsdf {
+        let surface = Surface {
+            p: Vec3::ZERO,
+            p_error: Vec3::ZERO,
+            ng: Vec3::Z,
+            ns: Vec3::Z,
+            tangent: Vec3::X,
+            handedness: 1.0,
+            uv: self.place.uv,
+            color: self.place.color,
+        };
+        let mut scratch = Bsdf::new();
+        self.material.bsdf(&surface, wo.as_vec3(), self.textures, &mut scratch).clone()
+    }
+}
+
+impl Scattering for Worn<'_> {
+    fn sample(&self, wo: DVec3, u: [f32; 3]) -> Option<Draw> {
+        Scattering::sample(&self.towards(wo), wo, u)
+    }
+
+    fn eval(&self, wo: DVec3, wi: DVec3) -> Rgb {
+        Scattering::eval(&self.towards(wo), wo, wi)
+    }
+
+    fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
+        Scattering::pdf(&self.towards(wo), wo, wi)
+    }
+}
+
+/// Parameters at a place in words: `roughness 0.80, metal 1.00`; empty for models without.
+pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: &Place) -> String {
+    let at = Point { uv: &place.uv, color: place.color, textures };
+    let rough = |r: &Roughness| match r {
+        Roughness::Perceptual(p) => format!("roughness {:.2}", param::scalar(p, at)),
+        Roughness::Alpha([a, b]) if a == b => format!("α {a}"),
+        Roughness::Alpha([a, b]) => format!("α {a} × {b}"),
+    };
+    fn of(model: &Model, rough: &dyn Fn(&Roughness) -> String, at: Point) -> String {
+        match model {
+            Model::Conductor { roughness, .. } | Model::Dielectric { roughness, .. } => rough(roughness),
+            Model::MetallicRoughness(m) => {
+                let r = rough(&Roughness::Perceptual(m.roughness));
+                format!("{r}, metal {:.2}", param::scalar(&m.metallic, at))
+            }
+            Model::Mix(parts) => {
+                let all = parts.iter().map(|(_, part)| of(part, rough, at)).filter(|text| !text.is_empty());
+                all.collect::<Vec<_>>().join(" and ")
+            }
+            Model::Absorb | Model::Diffuse { .. } | Model::Mirror { .. } => String::new(),
+        }
+    }
+    of(&material.model, &rough, at)
+}
+
+/// Light that enters is bent, so that the two sides differ and there must be a way out.
+pub(super) fn refracts(model: &Model) -> bool {
+    match model {
+        Model::Dielectric { .. } => true,
+        Model::MetallicRoughness(m) => m.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0),
+        Model::Mix(parts) => parts.iter().any(|(weight, part)| *weight > 0.0 && refracts(part)),
+        _ => false,
+    }
+}
