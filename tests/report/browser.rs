@@ -7,9 +7,6 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// Windows of some versions are never narrower.
-pub(crate) const NARROWEST: u32 = 0;
-
 /// After this a browser hangs.
 const PATIENCE: Duration = Duration::from_secs(180);
 

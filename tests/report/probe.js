@@ -6,10 +6,10 @@ addEventListener("load", () => {
   const all = (selector) => [...page.querySelectorAll(selector)];
   const visible = (selector) => all(selector).filter((element) => element.offsetParent !== null);
 
-  // Width of what can be scrolled to, and elements that stick out of the page but of no box of their own.
+  // How far the page scrolls sideways, and elements that stick out of the page but of no box of their own.
   const measure = (name) => {
     const root = page.documentElement;
-    out[name] = root.scrollWidth;
+    out[name] = root.scrollWidth - root.clientWidth;
     const wide = visible("body *").filter(
       (element) => !element.closest(".scroll > *") && element.getBoundingClientRect().right > root.clientWidth + 0.5,
     );

@@ -3,14 +3,14 @@
 use maud::{Markup, html};
 
 /// The drawing, in its own units, and the room for what stands beside the axes.
-const SIZE: [f64; 2] = [480.0, 290.0];
-const LEFT: f64 = 62.0;
+const SIZE: [f64; 2] = [380.0, 260.0];
+const LEFT: f64 = 64.0;
 const RIGHT: f64 = 14.0;
 const TOP: f64 = 12.0;
 const BOTTOM: f64 = 44.0;
 
 /// Steps between ticks, at most.
-const TICKS: f64 = 6.0;
+const TICKS: f64 = 5.0;
 
 /// What the axes span.
 #[derive(Clone, Copy, Debug)]
@@ -85,7 +85,7 @@ impl Chart {
                 @for (x, label) in self.x.ticks() {
                     @let [at, _] = self.at(x, self.y.from).map(px);
                     line.grid x1=(at) x2=(at) y1=(top) y2=(bottom) {}
-                    text x=(at) y=(px(h - BOTTOM + 15.0)) text-anchor="middle" { (label) }
+                    text x=(at) y=(px(h - BOTTOM + 16.0)) text-anchor="middle" { (label) }
                 }
                 @for (y, label) in self.y.ticks() {
                     @let [_, at] = self.at(self.x.from, y);
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_around_all() {
         assert_eq!(labels(&[0.0, 1.0]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
-        assert_eq!(labels(&[-0.03, 0.03]), ["-0.03", "-0.02", "-0.01", "0.00", "0.01", "0.02", "0.03"]);
+        assert_eq!(labels(&[-0.03, 0.03]), ["-0.04", "-0.02", "0.00", "0.02", "0.04"]);
         assert_eq!(labels(&[0.99991, 1.00004]).first().map(String::as_str), Some("0.99990"));
         assert_eq!(labels(&[f64::NAN, 0.0, 90.0]).len(), 6);
     }

@@ -52,22 +52,23 @@ impl Sample {
 /// The figure with what it shows in numbers.
 pub(super) fn section(report: &Report) -> Markup {
     let sample = Sample::new(report);
-    let n = sample.z.len();
-    let moments: Moments = sample.z.iter().copied().collect();
+    let (n, limit) = (sample.z.len(), report.z_limit());
+    let moments: Moments = sample.z.iter().copied().filter(|z| z.abs() <= limit).collect();
     html! {
         section #distribution {
             h2 { "Distribution of z" }
             @if n == 0 { p { "No check of this run has a z." } } @else {
                 p {
-                    (count(n)) " values of z, mean " (format!("{:+.3}", moments.mean())) ", standard deviation "
-                    (format!("{:.3}", moments.variance().sqrt())) "; of right checks they follow the standard normal (the line). "
+                    (count(n)) " values of z; " (count(moments.n() as usize)) " are within the limit, with mean "
+                    (format!("{:+.3}", moments.mean())) " and standard deviation "
+                    (format!("{:.3}", moments.variance().sqrt())) ". Of right checks they follow the standard normal (the line). "
                     @for limit in [2.0, 3.0] {
                         @let [found, promised] = sample.beyond(limit);
                         "|z| > " (limit) ": " (format!("{found:.2}")) " %, promised " (format!("{promised:.2}")) " %. "
                     }
                     "Checks that share samples are not independent."
                 }
-                (draw(&sample, report.z_limit()))
+                (draw(&sample, limit))
             }
             @if sample.zero > 0 { p.faint { (count(sample.zero)) " checks differ by rounding at most and are left out." } }
             @if sample.beyond > 0 { p { (count(sample.beyond)) " checks have a z that is not finite." } }

@@ -192,7 +192,9 @@ mod tests {
         }
         assert!(bad.contains("id=\"failures\"") && !good.contains("id=\"failures\""));
         assert!(bad.contains("FAILED") && good.contains("passed"));
-        assert!(good.contains("reflects at most 0.94") && good.matches("data:image/png").count() >= 4);
+        assert!(
+            good.contains("<code>paint</code>: reflects at most 0.94") && good.matches("data:image/png").count() >= 4
+        );
     }
 
     #[test]

@@ -64,7 +64,7 @@ fn subject(id: &str, section: &Section, share: f64, rows: usize) -> Markup {
                 span.n { @if let Some(bias) = digest.detects { "detects " (percent(bias)) } }
             }
             @if !section.words.is_empty() {
-                ul.words { @for words in &section.words { li { (one_line(words)) } } }
+                ul.words { @for words in &section.words { li { (sentence(words)) } } }
             }
             div.scroll tabindex="0" role="region" aria-label={ "Checks of " (one_line(&section.subject)) } {
                 table { (head(None)) tbody { @for check in &checks { (row(check, share, None)) } } }
@@ -73,6 +73,14 @@ fn subject(id: &str, section: &Section, share: f64, rows: usize) -> Markup {
                 p.faint { (count(section.checks.len() - checks.len())) " likelier checks are left out here; --json has all." }
             }
         }
+    }
+}
+
+/// A verdict with `names` in backticks set apart.
+fn sentence(words: &str) -> Markup {
+    let words = one_line(words);
+    html! {
+        @for (i, part) in words.split('`').enumerate() { @if i % 2 == 1 { code { (part) } } @else { (part) } }
     }
 }
 
