@@ -14,6 +14,16 @@ use super::Task;
 
 /// Every check of the crate, row by row.
 pub fn tasks() -> Vec<Task> {
-    let rows: &[fn() -> Vec<Task>] = &[agreement::tasks, camera::tasks, filter::tasks, light::tasks, lobes::tasks, restricted::tasks, sampler::tasks, scenes::tasks, warp::tasks];
+    let rows: &[fn() -> Vec<Task>] = &[
+        agreement::tasks,
+        camera::tasks,
+        filter::tasks,
+        light::tasks,
+        lobes::tasks,
+        restricted::tasks,
+        sampler::tasks,
+        scenes::tasks,
+        warp::tasks,
+    ];
     rows.iter().flat_map(|row| row()).collect()
 }
