@@ -78,3 +78,11 @@ impl Ggx {
 pub fn reflect(w: Vec3, m: Vec3) -> Vec3 {
     m * (2.0 * w.dot(m)) - w
 }
+
+/// The normal that mirrors `o` to `i`, and the cosine of either to it.
+#[inline]
+pub fn half_vector(o: Vec3, i: Vec3) -> (Vec3, f32) {
+    let sum = o + i;
+    let length = sum.length();
+    if length > 0.0 { (sum / length, (0.5 * length).min(1.0)) } else { (Vec3::Z, 0.0) }
+}

@@ -3,7 +3,7 @@
 use super::Transport;
 use super::energy::{EnergyTable, Interface, Slice};
 use super::fresnel::{dielectric, refract};
-use super::ggx::{Ggx, MIN_ALPHA, reflect};
+use super::ggx::{Ggx, MIN_ALPHA, half_vector, reflect};
 use super::smooth::refraction_scale;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -131,8 +131,8 @@ impl RoughDielectric {
         let e_o = own.energy.at(o);
         let q = e_o.loss;
         if i.z > 0.0 {
-            let h = (o + i).normalize_or(Vec3::Z);
-            let (f, _) = dielectric(o.dot(h).clamp(0.0, 1.0), eta);
+            let (h, cos) = half_vector(o, i);
+            let (f, _) = dielectric(cos, eta);
             let stays = 1.0 - own.transmitted;
             let single = f * 0.25 * self.ggx.d(h) * self.ggx.g2_over_cosines(o, i);
             let multiple = stays * FRAC_1_PI * e_o.loss * own.energy.at(i).loss / own.energy.mean.loss;
@@ -146,13 +146,13 @@ impl RoughDielectric {
         let mut pdf = q * crosses * other.energy.pdf(-i.z);
         // The normal that refracts o to i; there is none unless they are on opposite sides of it.
         let h = o + i * eta;
-        let h = h * (1f32.copysign(h.z) / h.length().max(f32::MIN_POSITIVE));
+        let length = h.length().max(f32::MIN_POSITIVE);
+        let h = h * (1f32.copysign(h.z) / length);
         let (oh, ih) = (o.dot(h), i.dot(h));
         if oh > 0.0 && ih < 0.0 {
             let (fresnel, _) = dielectric(oh.min(1.0), eta);
-            let d = oh + eta * ih;
-            // |dh/di| = η² |i·h| / (o·h + η i·h)².
-            let jacobian = eta * eta * -ih / (d * d);
+            // |dh/di| = η² |i·h| / (o·h + η i·h)², whose denominator is |o + η i|².
+            let jacobian = eta * eta * -ih / (length * length);
             f += (1.0 - fresnel) * oh * jacobian * self.ggx.d(h) * self.ggx.g2_over_cosines(o, i);
             pdf += (1.0 - q) * (1.0 - fresnel) * self.ggx.visible_over_cosine(o, h) * oh * jacobian;
         }

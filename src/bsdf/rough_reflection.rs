@@ -1,7 +1,7 @@
 //! GGX microfacets that reflect, or pass light on below: conductors, glTF's specular coat, and its thin transmission.
 
 use super::energy::{Energy, Slice};
-use super::ggx::{Ggx, reflect};
+use super::ggx::{Ggx, half_vector, reflect};
 use super::{Fresnel, Interface};
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -108,8 +108,8 @@ impl RoughReflection {
     #[inline]
     fn eval_above(&self, wo: Vec3, wi: Vec3, through: bool) -> (Spectrum, f32) {
         let Micro { ggx, energy } = &self.micro;
-        let h = (wo + wi).normalize_or(Vec3::Z);
-        let cos = wo.dot(h).clamp(0.0, 1.0);
+        // o·h = |o + i|/2 = i·h: the same for both, and nothing cancels.
+        let (h, cos) = half_vector(wo, wi);
         let (e_o, e_i) = (energy.at(wo), energy.at(wi));
         let q = self.multiple_probability(e_o, through);
         let (f, f_ms) = (self.fresnel.eval(cos), self.f_ms);

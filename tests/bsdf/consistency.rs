@@ -1,36 +1,11 @@
-//! What `sample` says of itself is what `eval` says; nothing is NaN, negative or outside.
+//! Corners of the parameters give numbers: nothing is NaN, negative or outside, and specular parts are parts.
 
-use crate::{at_cosine, solid_angle};
+use crate::at_cosine;
 use radianza::bsdf::{Pdf, Transport, specimens};
 use radianza::glam::Vec3;
-use radianza::sampler::{Kind, Sampler};
 use radianza::warp::ONE_MINUS_EPSILON;
 
 const MODES: [Transport; 2] = [Transport::Radiance, Transport::Importance];
-
-#[test]
-fn weight_and_density_are_those_of_eval() {
-    let mut drawn = 0;
-    for s in specimens() {
-        for (mu, mode) in [0.9, 0.2, -0.7, -0.05].into_iter().flat_map(|mu| MODES.map(|mode| (mu, mode))) {
-            let wo = at_cosine(mu);
-            for i in 0..500 {
-                let mut sampler = Sampler::new(Kind::Independent, 5, [0, 0], i, 1);
-                let (uc, u) = (sampler.next_1d(), sampler.next_2d());
-                let Some(sample) = s.bsdf.sample(wo, uc, u, mode) else { continue };
-                let Some(pdf) = solid_angle(&sample) else { continue };
-                let e = s.bsdf.eval(wo, sample.wi, mode);
-                assert_eq!(pdf, e.pdf, "{}", s.name);
-                let weight = e.f * (sample.wi.z.abs() / e.pdf);
-                assert!((weight.0 - sample.weight.0).abs().max_element() <= 1e-5 * weight.max_element(), "{}", s.name);
-                assert!((sample.wi.length() - 1.0).abs() < 1e-5, "{}", s.name);
-                assert!(sample.specular.0.cmple(sample.weight.0 * 1.000_01).all(), "{}", s.name);
-                drawn += 1;
-            }
-        }
-    }
-    assert!(drawn > 50_000, "{drawn}");
-}
 
 #[test]
 fn corners_give_numbers() {
@@ -45,6 +20,7 @@ fn corners_give_numbers() {
                 let at = format!("{} μ {mu:e} u {a} {b} {c}: {sample:?}", s.name);
                 assert!(sample.weight.is_finite() && sample.wi.is_finite(), "{at}");
                 assert!(sample.weight.0.min_element() >= 0.0 && sample.eta > 0.0, "{at}");
+                assert!(sample.specular.0.cmple(sample.weight.0 * 1.000_01).all(), "{at}");
                 match sample.pdf {
                     Pdf::SolidAngle(pdf) => assert!(pdf > 0.0 && pdf.is_finite(), "{at}"),
                     Pdf::Discrete(p) => assert!(p > 0.0 && p <= 1.0, "{at}"),

@@ -63,9 +63,9 @@ fn white_gltf_neither_gains_nor_loses() {
             let material = compile(Model::MetallicRoughness(Box::new(m)));
             for mu in [0.9, 0.3, 0.05, -0.7] {
                 let bsdf = material.bsdf(&surface(), at_cosine(mu), &Textures::default(), &mut Bsdf::new()).clone();
-                let m = sampled_albedo(&bsdf, at_cosine(mu), 0, 16, 1024);
+                let m = sampled_albedo(&bsdf, at_cosine(mu), 0, 256);
                 let name = format!("metallic {metallic} roughness {roughness} transmission {transmission:?} μ {mu}");
-                family.rounded(name, 1.0, m.mean(), m.standard_error(), 5e-4);
+                family.replicated(name, 1.0, &m, 5e-4);
             }
         }
     }

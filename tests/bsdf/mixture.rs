@@ -21,7 +21,7 @@ fn lobes_split_the_energy() {
         let bsdf = f3(p_d, rho);
         assert!((bsdf.delta_probability() - 0.4).abs() < 1e-6);
         let moments = |diffuse: bool| {
-            replicates(9, 16, 8192, |uc, u| {
+            replicates(9, 2048, |uc, u| {
                 let sample = bsdf.sample(at_cosine(0.4), uc, u, Transport::Radiance).expect("neither lobe fails");
                 f64::from(if diffuse { (sample.weight - sample.specular).0.x } else { sample.specular.0.x })
             })
@@ -43,20 +43,20 @@ fn deltas_are_those_that_sampling_draws() {
                 assert!(exact.is_black() && s.bsdf.sample_delta(wo, 0.5, Transport::Radiance).is_none(), "{}", s.name);
                 continue;
             }
-            let drawn = replicates(8, 16, 4096, |uc, u| match s.bsdf.sample(wo, uc, u, Transport::Radiance) {
+            let drawn = replicates(8, 1024, |uc, u| match s.bsdf.sample(wo, uc, u, Transport::Radiance) {
                 Some(sample) if matches!(sample.pdf, Pdf::Discrete(_)) => f64::from(sample.weight.0.x),
                 _ => 0.0,
             });
             // Drawn alone, a delta's weight still counts the chance that sampling takes another lobe.
             let p = s.bsdf.delta_probability();
-            let alone = replicates(8, 16, 4096, |uc, _| {
+            let alone = replicates(8, 1024, |uc, _| {
                 let sample = s.bsdf.sample_delta(wo, uc, Transport::Radiance).expect("there are deltas");
                 assert!(matches!(sample.pdf, Pdf::Discrete(q) if q <= p * 1.000_01));
                 f64::from(sample.weight.0.x * p)
             });
             for (name, m) in [("drawn", drawn), ("alone", alone)] {
                 let exact = f64::from(exact.0.x);
-                family.rounded(format!("{} μ {mu} {name}", s.name), exact, m.mean(), m.standard_error(), 1e-5);
+                family.replicated(format!("{} μ {mu} {name}", s.name), exact, &m, 1e-5);
             }
         }
     }

@@ -16,7 +16,7 @@ const N_MU: usize = 48;
 /// Nodes in ln α.
 const N_ALPHA: usize = 40;
 /// Nodes in azimuth.
-const N_AZIMUTH: usize = 17;
+const N_AZIMUTH: usize = 33;
 /// Nodes of the means in ln α.
 const N_MEANS: usize = 96;
 /// ln of half of [`crate::bsdf::ggx::MIN_ALPHA`]: the least α in the tables.
@@ -314,5 +314,25 @@ mod tests {
             assert!((a.loss - b.loss).abs() < 2e-4, "{mu}: {a:?} {b:?}");
         }
         assert!((near.mean.loss - same.mean.loss).abs() < 2e-4);
+    }
+
+    /// Likewise over the azimuth, between whose nodes roughness changes.
+    #[test]
+    fn anisotropic_interpolation_costs_little() {
+        let rule = Rule::new::<12, 24>();
+        let glass = Interface::Dielectric { eta: 1.0 / 1.5 };
+        for (interface, alpha, bound) in [(Interface::Mirror, [0.05, 0.4], 5e-5), (glass, [0.1, 0.5], 2e-4)] {
+            let slice = Slice::new(interface, Ggx { ax: alpha[0], ay: alpha[1] });
+            let mut worst = 0f32;
+            for (i, mu) in [0.02f32, 0.1, 0.3, 0.5, 0.8].into_iter().enumerate() {
+                for j in 0..16 {
+                    let phi = FRAC_PI_2 * (f64::from(j) + 0.1 * (1.0 + i as f64)) / 16.0;
+                    let r = (1.0 - mu * mu).sqrt();
+                    let loss = slice.at(Vec3::new(r * phi.cos() as f32, r * phi.sin() as f32, mu)).loss;
+                    worst = worst.max((loss - interface.integrate(&rule, mu, phi, alpha).loss).abs());
+                }
+            }
+            assert!(worst < bound, "{interface:?} {alpha:?}: {worst:e}");
+        }
     }
 }

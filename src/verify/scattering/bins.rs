@@ -5,7 +5,7 @@
 //! pilot run, columns quantiles of φ within a row: every bin is about as likely as the others, and a lobe of width
 //! 10⁻³ fills as many of them as a broad one. The horizon is the edge h = 1.
 
-use super::quadrature::{Integral, Rectangle, integrate};
+use super::quadrature::{Integral, Stop, integrate, split};
 use glam::DVec3;
 use std::f64::consts::{PI, TAU};
 
@@ -22,9 +22,10 @@ pub(super) struct Bins {
     rows: Vec<f64>,
     /// Edges within each row.
     columns: Vec<Vec<f64>>,
-    /// Further cuts for integrals, in the tails of h and of φ.
-    row_cuts: Vec<f64>,
-    column_cuts: Vec<Vec<f64>>,
+    /// Where the pilot run went, (h, φ).
+    places: Vec<[f64; 2]>,
+    /// Share of the draws that each of them stands for.
+    share: f64,
 }
 
 /// h, without cancellation near the normal.
@@ -33,13 +34,14 @@ fn height(w: DVec3) -> f64 {
     sin2 / (1.0 + (1.0 - sin2).max(0.0).sqrt())
 }
 
-/// Values of `sorted` at these shares of its length, between the outermost edges; equal ones are one.
-fn quantiles(sorted: &[f64], shares: impl Iterator<Item = f64>, [low, high]: [f64; 2]) -> Vec<f64> {
+/// Edges that cut `sorted` into `n` equal parts, between the outermost ones; equal ones are one.
+fn quantiles(sorted: &[f64], n: usize, [low, high]: [f64; 2]) -> Vec<f64> {
     let mut edges = vec![low];
-    for share in shares {
-        let i = ((share * sorted.len() as f64) as usize).clamp(1, sorted.len() - 1);
+    for k in 1..n {
+        let i = (k * sorted.len() / n).max(1);
         // Between two draws, so that rounding puts none on an edge.
-        let edge = 0.5 * (sorted[i - 1] + sorted[i]);
+        let Some(pair) = sorted.get(i - 1..=i) else { continue };
+        let edge = 0.5 * (pair[0] + pair[1]);
         if edge > edges[edges.len() - 1] && edge < high {
             edges.push(edge);
         }
@@ -48,42 +50,55 @@ fn quantiles(sorted: &[f64], shares: impl Iterator<Item = f64>, [low, high]: [f6
     edges
 }
 
-fn inner(n: usize) -> impl Iterator<Item = f64> {
-    (1..n).map(move |i| i as f64 / n as f64)
+/// The interval, cut at steps that grow by four from both ends: lobes have tails that reach far beyond their width.
+fn graded([low, high]: [f64; 2], [first, last]: [f64; 2]) -> Vec<f64> {
+    let mut cuts = vec![low, high];
+    for (from, mut step) in [(low, first), (high, -last)] {
+        while step != 0.0 && step.abs() < 0.5 * (high - low) {
+            cuts.push(from + step);
+            step *= 4.0;
+        }
+    }
+    cuts.sort_by(f64::total_cmp);
+    cuts
 }
 
-/// Where tails are cut, beside the edges of bins.
-fn tails() -> impl Iterator<Item = f64> {
-    [3e-4, 2e-3, 1e-2, 0.99, 0.998, 0.9997].into_iter()
+/// Cuts for integrals over each interval between `edges`: the outermost are cut at steps of their neighbours' size.
+fn cuts(edges: &[f64]) -> Vec<Vec<f64>> {
+    let n = edges.len() - 1;
+    let width = |i: usize| edges[i + 1] - edges[i];
+    let cut = |i: usize| {
+        let first = if i + 1 == n && n > 2 { width(i - 1) } else { 0.0 };
+        let last = if i == 0 && n > 2 { width(1) } else { 0.0 };
+        graded([edges[i], edges[i + 1]], [first, last])
+    };
+    (0..n).map(cut).collect()
 }
 
 impl Bins {
-    /// Of one side, for the draws of a pilot run.
-    pub(super) fn new(side: f64, pilot: &[DVec3]) -> Self {
+    /// Of one side, for the directions of a pilot run of `draws`.
+    pub(super) fn new(side: f64, pilot: &[DVec3], draws: u64) -> Self {
         let mean: DVec3 = pilot.iter().filter(|w| w.z * side > 0.0).sum();
-        let zero = mean.y.atan2(mean.x);
-        let mut this =
-            Self { side, zero, rows: Vec::new(), columns: Vec::new(), row_cuts: Vec::new(), column_cuts: Vec::new() };
+        let (rows, columns, places) = (Vec::new(), Vec::new(), Vec::new());
+        let mut this = Self { side, zero: mean.y.atan2(mean.x), rows, columns, places, share: 1.0 / draws as f64 };
         let mut places: Vec<[f64; 2]> = pilot.iter().filter(|w| w.z * side > 0.0).map(|&w| this.place(w)).collect();
+        places.sort_by(|a, b| a[0].total_cmp(&b[0]));
         let n = ((places.len() as f64 / 40.0).sqrt() as usize).min(MOST);
         if n < 2 {
             // Seldom drawn: a coarse net over all of it.
             this.rows = (0..=4).map(|i| f64::from(i) / 4.0).collect();
             this.columns = vec![(0..=4).map(|i| PI * (f64::from(i) / 2.0 - 1.0)).collect(); 4];
-            (this.row_cuts, this.column_cuts) = (this.rows.clone(), this.columns.clone());
-            return this;
+        } else {
+            let heights: Vec<f64> = places.iter().map(|p| p[0]).collect();
+            this.rows = quantiles(&heights, n, [0.0, 1.0]);
+            for row in this.rows.windows(2) {
+                let within = places.iter().filter(|p| (row[0]..row[1]).contains(&p[0]));
+                let mut azimuths: Vec<f64> = within.map(|p| p[1]).collect();
+                azimuths.sort_by(f64::total_cmp);
+                this.columns.push(quantiles(&azimuths, n, [-PI, PI]));
+            }
         }
-        places.sort_by(|a, b| a[0].total_cmp(&b[0]));
-        let heights: Vec<f64> = places.iter().map(|p| p[0]).collect();
-        this.rows = quantiles(&heights, inner(n), [0.0, 1.0]);
-        this.row_cuts = quantiles(&heights, tails(), [0.0, 1.0]);
-        for row in this.rows.windows(2) {
-            let mut azimuths: Vec<f64> =
-                places.iter().filter(|p| (row[0]..row[1]).contains(&p[0])).map(|p| p[1]).collect();
-            azimuths.sort_by(f64::total_cmp);
-            this.columns.push(quantiles(&azimuths, inner(n), [-PI, PI]));
-            this.column_cuts.push(quantiles(&azimuths, tails(), [-PI, PI]));
-        }
+        this.places = places;
         this
     }
 
@@ -121,37 +136,42 @@ impl Bins {
         Some(before + within(&self.columns[row], phi))
     }
 
-    /// ∫ f dω over each bin, and the sum of the errors seen.
+    /// ∫ f dω over each bin, the first component of `f` being the density; and the sum of the errors seen.
     pub(super) fn integrate<const K: usize>(&self, f: impl Fn(DVec3) -> [f64; K]) -> (Vec<[f64; K]>, f64) {
         let of = |h: f64, phi: f64| f(self.direction(h, phi));
-        let (mut values, mut error) = (Vec::with_capacity(self.len()), 0.0);
-        for (row, (columns, cuts)) in self.rows.windows(2).zip(self.columns.iter().zip(&self.column_cuts)) {
-            let rows = parts(row, &self.row_cuts);
-            for column in columns.windows(2) {
-                let mut value = [0.0; K];
-                for y in parts(column, cuts).windows(2) {
-                    for x in rows.windows(2) {
-                        let cell: Rectangle = [[x[0], x[1]], [y[0], y[1]]];
-                        let Integral { value: part, error: seen } = integrate(&of, cell, TOLERANCE, DEPTH);
-                        value = std::array::from_fn(|k| value[k] + part[k]);
-                        error += seen;
+        let stop = Stop { tolerance: TOLERANCE, point: self.share, depth: DEPTH, rules: RULES };
+        let (mut values, mut total) = (Vec::with_capacity(self.len()), Integral::default());
+        let mut places = self.places.clone();
+        let mut above = &mut places[..];
+        for (cuts_h, columns) in cuts(&self.rows).iter().zip(&self.columns) {
+            let high = cuts_h[cuts_h.len() - 1];
+            let (row, rest) = split(above, |p| p[0] < high);
+            above = rest;
+            let mut right = row;
+            for cuts_phi in cuts(columns) {
+                let end = cuts_phi[cuts_phi.len() - 1];
+                let (mut bin, rest) = split(right, |p| p[1] < end);
+                right = rest;
+                let before = total.value;
+                for x in cuts_h.windows(2) {
+                    let (mut strip, rest) = split(bin, |p| p[0] < x[1]);
+                    bin = rest;
+                    for y in cuts_phi.windows(2) {
+                        let (cell, rest) = split(strip, |p| p[1] < y[1]);
+                        strip = rest;
+                        integrate(&of, [[x[0], x[1]], [y[0], y[1]]], cell, stop, &mut total);
                     }
                 }
-                values.push(value);
+                values.push(std::array::from_fn(|k| total.value[k] - before[k]));
             }
         }
-        (values, error)
+        (values, total.error)
     }
 }
 
 /// Largest difference between a cell and its parts that is let be.
 const TOLERANCE: f64 = 1e-6;
 /// Most cuts of a cell.
-const DEPTH: u32 = 9;
-
-/// The interval, cut where one of the `cuts` lies inside it.
-fn parts(interval: &[f64], cuts: &[f64]) -> Vec<f64> {
-    let [low, high] = [interval[0], interval[1]];
-    let inside = cuts.iter().copied().filter(|&x| x > low && x < high);
-    std::iter::once(low).chain(inside).chain([high]).collect()
-}
+const DEPTH: u32 = 20;
+/// Most rules on one side: where draws do not follow the density, following them would not end.
+const RULES: u64 = 60_000;

@@ -4,7 +4,7 @@ use super::{any, each, refracts, tables};
 use crate::bsdf::{Bsdf, Fresnel, Lobe, Micro, RoughDielectric, RoughReflection};
 use crate::spectrum::Spectrum;
 use crate::stats::Evidence;
-use crate::verify::scattering::{Claims, at_cosine, energy, integrals, sampled};
+use crate::verify::scattering::{Claims, Integrals, Sampled, at_cosine, energy, integrals, sampled};
 use crate::verify::{Curve, Exhibit, Findings, Task, Topic, Trial};
 
 /// E(ωo) = ∫ f |cos θi| dωi, reflection and transmission together.
@@ -17,12 +17,13 @@ const TOPIC: Topic = Topic {
 pub(super) fn tasks() -> Vec<Task> {
     let mut tasks = each(any, |s| {
         Task::new(TOPIC, s.name.clone(), move |trial, found| {
-            let cosines: &[f64] =
-                trial.pick(&[0.95, 0.5, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.003]);
+            let cosines: &[f64] = trial.pick(&[0.8, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.003]);
             let granted = tables(&s);
+            // The albedo of rough metals comes from a fit of their Fresnel term, which costs choices and no light.
+            let told = if s.name.starts_with("gold") { GOLD } else { granted };
             for side in [1.0, -1.0].into_iter().take(if refracts(&s) { 2 } else { 1 }) {
                 let claims = Claims { lossless: s.lossless, granted, ..Claims::default() };
-                curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims);
+                curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims, told);
             }
         })
     });
@@ -30,23 +31,16 @@ pub(super) fn tasks() -> Vec<Task> {
         let claims = Claims { lossless: true, granted: 2e-4, ..Claims::default() };
         for alpha in roughnesses(trial) {
             let lobe = RoughReflection::new(Micro::new([alpha; 2]), Fresnel::ONE);
-            quadrature(
-                found,
-                trial,
-                &format!("α {alpha:.5}"),
-                &Bsdf::single(Lobe::RoughReflection(lobe)),
-                &CONDUCTOR,
-                &claims,
-            );
+            quadrature(found, trial, alpha.into(), &Bsdf::single(Lobe::RoughReflection(lobe)), &CONDUCTOR, &claims);
         }
     }));
     for eta in [1.33, 1.0 / 1.5] {
         tasks.push(Task::new(TOPIC, format!("clear dielectric η {eta:.3}, every roughness"), move |trial, found| {
-            let claims = Claims { lossless: true, granted: 4e-4, ..Claims::default() };
+            let claims = Claims { lossless: true, granted: 3e-4, ..Claims::default() };
             for alpha in roughnesses(trial) {
                 let lobe = RoughDielectric::new([alpha; 2], eta, Spectrum::ONE);
                 let bsdf = Bsdf::single(Lobe::RoughDielectric(lobe));
-                quadrature(found, trial, &format!("α {alpha:.5}"), &bsdf, &DIELECTRIC, &claims);
+                quadrature(found, trial, alpha.into(), &bsdf, &DIELECTRIC, &claims);
             }
         }));
     }
@@ -59,17 +53,33 @@ const DIELECTRIC: [f64; 8] = [1.0, 0.75, 0.3, 0.02, -1.0, -0.75, -0.74, -0.1];
 
 /// From nearly a mirror to the roughest.
 fn roughnesses(trial: &Trial) -> impl Iterator<Item = f32> {
-    let n = trial.pick(6, 24);
+    let n = trial.pick(4, 24);
     (0..=n).map(move |i| 10f32.powf(-3.5 * (1.0 - i as f32 / n as f32)))
 }
 
+/// Error of the fit of metals.
+const GOLD: f64 = 3e-2;
+
+/// Below this μα a half-vector in f32, whose slope is off by 6·10⁻⁸/μ, no longer resolves a lobe of width α.
+const HALF_VECTOR: f64 = 1e-5;
+
 /// Energy over the angle.
-fn curve(found: &mut Findings, trial: &Trial, bsdf: &Bsdf, cosines: impl Iterator<Item = f64>, claims: &Claims) {
+fn curve(
+    found: &mut Findings,
+    trial: &Trial,
+    bsdf: &Bsdf,
+    cosines: impl Iterator<Item = f64>,
+    claims: &Claims,
+    granted: f64,
+) {
     let mut points = Vec::new();
     for mu in cosines {
         let (wo, trial) = (at_cosine(mu), &trial.part(&format!("{mu}")));
-        let sampled = sampled(trial, bsdf, wo, 1e-3, trial.pick(1 << 13, 1 << 17));
-        let albedo = energy(found, &format!("cos {mu}"), claims, &integrals(trial, bsdf, wo), &sampled);
+        let integrals = integrals(trial, bsdf, wo);
+        let sampled = sampled(trial, bsdf, wo, &integrals, trial.pick(5e-3, 1e-3), trial.pick(1 << 12, 1 << 16));
+        let at = format!("cos {mu}");
+        let albedo = energy(found, &at, claims, &integrals, &sampled);
+        told(found, &at, bsdf.albedo(wo.as_vec3()), granted, &integrals, &sampled);
         points.push((mu, albedo, sampled.all.map(|m| m.standard_error())));
     }
     points.sort_by(|a, b| a.0.total_cmp(&b.0));
@@ -80,13 +90,26 @@ fn curve(found: &mut Findings, trial: &Trial, bsdf: &Bsdf, cosines: impl Iterato
         .push(Exhibit::Curve(Curve { title: "albedo".into(), axes: ["cos θ", "directional albedo"], lines }));
 }
 
+/// What the lobe says of its albedo, by tables, is what its function has: it picks lobes, and fills a layer of images.
+fn told(found: &mut Findings, at: &str, albedo: Spectrum, granted: f64, integrals: &Integrals, sampled: &Sampled) {
+    for (k, lane) in ["red", "green", "blue"].into_iter().enumerate() {
+        let (exact, deltas) = (f64::from(albedo.to_rgb()[k]), &sampled.deltas[k]);
+        let (se, dof) = (deltas.standard_error(), deltas.n() as f64 - 1.0);
+        let (estimate, rounding) = (integrals.albedo[k] + deltas.mean(), (granted + integrals.error) * exact);
+        found.checks.push(
+            format!("{at}: albedo() is the integral, {lane}"),
+            Evidence::Z { exact, estimate, se, dof, rounding },
+        );
+    }
+}
+
 /// Energy by quadrature alone.
-fn quadrature(found: &mut Findings, trial: &Trial, name: &str, bsdf: &Bsdf, cosines: &[f64], claims: &Claims) {
-    for &mu in cosines {
-        let trial = trial.part(&format!("{name} {mu}"));
+fn quadrature(found: &mut Findings, trial: &Trial, alpha: f64, bsdf: &Bsdf, cosines: &[f64], claims: &Claims) {
+    for &mu in cosines.iter().filter(|mu| mu.abs() * alpha > HALF_VECTOR) {
+        let trial = trial.part(&format!("{alpha} {mu}"));
         let integrals = integrals(&trial, bsdf, at_cosine(mu));
         let rounding = claims.granted + integrals.error;
         let evidence = Evidence::Z { exact: 1.0, estimate: integrals.albedo[0], se: 0.0, dof: f64::INFINITY, rounding };
-        found.checks.push(format!("{name}, cos {mu}: albedo = 1 by quadrature"), evidence);
+        found.checks.push(format!("α {alpha:.5}, cos {mu}: albedo = 1 by quadrature"), evidence);
     }
 }

@@ -1,6 +1,5 @@
 //! BSDFs and microsurfaces: rows A1 to A5, T5, T6, and the law of densities.
 
-mod albedo;
 mod density;
 mod energy;
 mod fresnel;
@@ -14,12 +13,11 @@ use crate::verify::Task;
 
 /// Every check of lobes.
 pub(super) fn tasks() -> Vec<Task> {
-    let rows: [fn() -> Vec<Task>; 8] = [
+    let rows: [fn() -> Vec<Task>; 7] = [
         lambert::tasks,
         microsurface::tasks,
         reciprocity::tasks,
         energy::tasks,
-        albedo::tasks,
         density::tasks,
         fresnel::tasks,
         radiance::tasks,
@@ -47,7 +45,7 @@ fn refracts(specimen: &Specimen) -> bool {
     specimen.name.contains("dielectric")
 }
 
-/// Relative error in energy that its tables make: interpolation, and for dielectrics from inside the quadrature.
+/// Relative error in energy that its tables make by interpolation.
 fn tables(specimen: &Specimen) -> f64 {
-    if specimen.name.contains("rough dielectric") { 4e-4 } else { 2e-4 }
+    if specimen.name.contains("rough dielectric") { 3e-4 } else { 2e-4 }
 }
