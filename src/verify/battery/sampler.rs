@@ -7,6 +7,7 @@
 
 use crate::sampler::{Kind, Specimen, specimens};
 use crate::stats::{Moments, chi2_test};
+use crate::verify::calibration::poisson_above;
 use crate::verify::{Findings, Task, Topic, Trial};
 use std::f64::consts::{E, PI};
 
@@ -163,11 +164,10 @@ fn repetitions(s: &Specimen, trial: &Trial, found: &mut Findings) {
         equal += numbers.windows(2).filter(|pair| pair[0] == pair[1]).count();
     }
     let mean = f64::from(samples) * f64::from(NUMBERS + 2) * f64::from(NUMBERS + 1) / 2.0 / f64::from(1 << 24);
-    // P(count > equal), and a random share of P(count = equal), which makes the p-value of a count uniform.
-    let term = |k: usize| (-mean + k as f64 * mean.ln() - (1..=k).map(|i| (i as f64).ln()).sum::<f64>()).exp();
+    // P(count > equal) and a random share of P(count = equal): the p-value of a count becomes uniform.
+    let [at_least, more] = [equal, equal + 1].map(|count| poisson_above(count, mean));
     let share = f64::from(s.at(trial.seed ^ 1, [0, 0], 0, 0).next_1d());
-    let p = 1.0 - (0..equal).map(term).sum::<f64>() - share * term(equal);
-    found.checks.p("equal numbers are as rare as chance has it", p.max(0.0));
+    found.checks.p("equal numbers are as rare as chance has it", more + share * (at_least - more));
 }
 
 type Integrand = (&'static str, f64, fn([f32; 4]) -> f64);
