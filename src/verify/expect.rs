@@ -146,7 +146,7 @@ fn samples(scene: &Scene, settings: &Settings, expect: &Expect, effort: Effort) 
         wanted = wanted.max(spp * (skewness(&means) / SKEWNESS).powi(2));
     }
     let most = effort.rays * spp / pilot.rays as f64;
-    let least = f64::from((2 * FIRST).div_ceil(pixels));
+    let least = f64::from(FIRST.div_ceil(pixels));
     Ok((wanted.min(most).max(least) as u32).clamp(1, 1 << 24).next_power_of_two())
 }
 
