@@ -23,7 +23,7 @@ pub struct Expect {
     /// Samplers that must agree; both without.
     #[serde(default)]
     pub samplers: Vec<SamplerKind>,
-    /// Samples per pixel to test with.
+    /// Samples per pixel to test with; as many as a pilot finds necessary without.
     pub spp: Option<u32>,
     /// Most reflections, where the answer is of a truncated series.
     pub max_depth: Option<u32>,

@@ -24,6 +24,7 @@ use super::expect::ROUNDING;
 use super::replicated::Replicated;
 use super::tiles::{Estimate, estimates, tiles, worst};
 use super::{Exhibit, picture};
+use crate::film::Film;
 use crate::stats::{Evidence, Family};
 
 /// An image with its errors.
@@ -48,7 +49,7 @@ impl Estimated {
     /// If there are not width × height of each.
     pub fn new(size: [usize; 2], mean: &[[f64; 3]], se: &[[f64; 3]], replicates: u32) -> Self {
         assert!(mean.len() == size[0] * size[1] && se.len() == mean.len(), "{size:?} pixels");
-        let dof = f64::from(replicates) - 1.0;
+        let dof = f64::from(replicates.max(2)) - 1.0;
         let pixels: Vec<[Estimate; 3]> = mean
             .iter()
             .zip(se)
@@ -73,12 +74,24 @@ impl Estimated {
     }
 }
 
+impl From<&Film> for Estimated {
+    fn from(film: &Film) -> Self {
+        let [x0, y0, x1, y1] = film.crop();
+        let size = [(x1 - x0) as usize, (y1 - y0) as usize];
+        let means: Vec<_> = film.pixels().map(|[x, y]| film.mean(x, y)).collect();
+        // What is known from one replicate alone is not known.
+        let errors: Vec<_> = film.pixels().map(|[x, y]| film.stderr(x, y).unwrap_or([f64::INFINITY; 3])).collect();
+        let replicates = film.pixels().map(|[x, y]| film.replicates(x, y)).min().unwrap_or(0);
+        Self::new(size, &means, &errors, replicates)
+    }
+}
+
 impl From<&Replicated> for Estimated {
     fn from(image: &Replicated) -> Self {
         Self {
             size: image.size,
             mean: [0, 1, 2].map(|c| Estimate::of(&image.moments(image.whole(), c))),
-            tiles: [0, 1, 2].map(|c| estimates(image, c, 0.0, 1)),
+            tiles: [0, 1, 2].map(|c| estimates(image, c, 0.0, 1.0)),
             pixels: image.pixels().iter().map(|rgb| [0, 1, 2].map(|c| Estimate::of(&rgb[c]))).collect(),
         }
     }

@@ -12,7 +12,7 @@ use super::picture;
 use super::replicated::{Census, Renders, Replicated, renders, skewness};
 use super::tiles::{estimates, unseen, worst};
 use super::{Findings, Trial};
-use crate::desc::{Expect, Filter, Integrator, SamplerKind, Strategy};
+use crate::desc::{self, Expect, Filter, Integrator, SamplerKind, Strategy};
 use crate::film::CLASSES;
 use crate::render::{Error, Settings};
 use crate::sampler::hash;
@@ -29,13 +29,15 @@ pub const STRATEGIES: [Strategy; 5] =
 /// Both samplers.
 pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Independent, SamplerKind::Sobol];
 
-/// How much is spent on one way of estimating.
+/// How much is spent on a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Relative bias to detect.
     pub aim: f64,
-    /// Most rays.
-    pub rays: f64,
+    /// Most rays for the renderer's own way: path, MIS, Sobol. It shows what the scene can detect.
+    pub own: f64,
+    /// Most rays for each other way.
+    pub others: f64,
 }
 
 /// One estimator of the answer.
@@ -73,21 +75,33 @@ pub fn ways(expect: &Expect) -> Vec<Way> {
     ways
 }
 
-/// Checks one answer, estimated in one way. `size` is that of the whole image.
-pub fn check(
-    scene: &Scene,
-    size: [u32; 2],
-    expect: &Expect,
-    way: Way,
-    effort: Effort,
-    trial: &Trial,
-    census: &mut Census,
-    found: &mut Findings,
-) {
-    let region = expect.region.unwrap_or([0, 0, size[0], size[1]]);
-    let settings = Settings {
+/// Checks all answers that `desc`, of which `scene` was compiled, carries.
+pub fn checks(desc: &desc::Scene, scene: &Scene, effort: Effort, trial: &Trial, found: &mut Findings) {
+    let size = desc.cameras.first().and_then(|camera| camera.resolution).unwrap_or([8, 8]);
+    let mut census = Census::default();
+    for (i, expect) in desc.expect.iter().enumerate() {
+        let ways = ways(expect);
+        for (k, &way) in ways.iter().enumerate() {
+            let seed = hash(&[trial.seed, i as u64, k as u64]);
+            let rays = if k + 1 == ways.len() { effort.own } else { effort.others };
+            let label = if desc.expect.len() > 1 { format!("{way} {}", i + 1) } else { way.to_string() };
+            let settings = settings(size, expect, way, seed);
+            match estimate(scene, settings, expect, effort.aim, rays) {
+                Ok(renders) => {
+                    judge(&label, expect, &renders, found);
+                    census.add(&label, &renders);
+                }
+                Err(e) => found.checks.holds(format!("{label}: {e}"), false),
+            }
+        }
+    }
+    census.report(found);
+}
+
+fn settings(size: [u32; 2], expect: &Expect, way: Way, seed: u64) -> Settings {
+    Settings {
         size,
-        crop: region,
+        crop: expect.region.unwrap_or([0, 0, size[0], size[1]]),
         camera: 0,
         spp: 1,
         time: None,
@@ -95,58 +109,53 @@ pub fn check(
         integrator: way.integrator,
         strategy: way.strategy,
         sampler: way.sampler,
-        seed: trial.seed,
+        seed,
         max_depth: expect.max_depth,
         filter: Filter::Box,
         transport: !expect.layers.is_empty(),
         threads: 0,
         tile: u32::MAX,
-    };
-    let seed = hash(&[trial.seed, way.integrator as u64, way.strategy as u64, way.sampler as u64]);
-    let render = || {
-        let spp = match expect.spp {
-            Some(spp) => spp.div_ceil(REPLICATES as u32).next_power_of_two(),
-            None => samples(scene, &settings, expect, effort)?,
-        };
-        Ok((spp, renders(scene, &Settings { spp, seed, ..settings.clone() })?))
-    };
-    match render() {
-        Ok((spp, renders)) => {
-            judge(&way.to_string(), expect, &renders, spp, found);
-            census.add(&way.to_string(), &renders);
-        }
-        Err::<_, Error>(e) => found.checks.holds(format!("{way}: {e}"), false),
     }
+}
+
+/// Renders with as many samples as the file says, or else as it takes.
+fn estimate(scene: &Scene, settings: Settings, expect: &Expect, aim: f64, rays: f64) -> Result<Renders, Error> {
+    let spp = match expect.spp {
+        Some(spp) => spp.div_ceil(REPLICATES as u32).next_power_of_two(),
+        None => samples(scene, &settings, expect, aim, rays)?,
+    };
+    renders(scene, &Settings { spp, ..settings })
 }
 
 /// Samples of a pixel in a replicate, a power of two: as many as an independent pilot says that it takes to detect the
 /// aim, and for Student's law to hold. A mean of rare events is skew: with a skewness γ of the mean, p-values near 1e-8
 /// are off by the factor exp(60 γ) (Edgeworth), so the γ of a replicate must fall below 0.25, that of the mean of
 /// all below 0.03.
-fn samples(scene: &Scene, settings: &Settings, expect: &Expect, effort: Effort) -> Result<u32, Error> {
+fn samples(scene: &Scene, settings: &Settings, expect: &Expect, aim: f64, rays: f64) -> Result<u32, Error> {
     const SKEWNESS: f64 = 0.25;
     const FIRST: u32 = 64;
+    const PILOT: u64 = 1 << 32;
     let [x0, y0, x1, y1] = settings.crop;
-    let pixels = (x1 - x0) * (y1 - y0);
+    let pixels = x1.saturating_sub(x0).saturating_mul(y1.saturating_sub(y0)).max(1);
     let spp = FIRST.div_ceil(pixels).next_power_of_two();
-    let pilot = renders(scene, &Settings { spp, seed: hash(&[settings.seed, 0x5049_4c4f_54]), ..settings.clone() })?;
+    let pilot = renders(scene, &Settings { spp, seed: hash(&[settings.seed, PILOT]), ..settings.clone() })?;
     let spp = f64::from(spp);
 
     // Layers are parts: what the whole needs decides for the aim, any of them for the skewness.
     let quantities = quantities(expect, &pilot).into_iter().map(|(_, exact, image)| (brightest(exact), image));
     let bright: Vec<_> = quantities.filter(|((_, exact), _)| *exact > 0.0).collect();
-    let mut wanted = SE_PER_DETECTED * unseen(1.0, f64::from(pixels) * REPLICATES as f64) / effort.aim;
+    let mut wanted = SE_PER_DETECTED * unseen(1.0, f64::from(pixels) * REPLICATES as f64) / aim;
     for (i, ((channel, exact), image)) in bright.into_iter().enumerate() {
         let means = image.means(image.whole(), channel);
         let moments: Moments = means.iter().copied().collect();
         if i == 0 {
-            let ratio = SE_PER_DETECTED * moments.standard_error() / (effort.aim * exact);
+            let ratio = SE_PER_DETECTED * moments.standard_error() / (aim * exact);
             wanted = wanted.max(1.2 * spp * ratio * ratio);
         }
         wanted = wanted.max(spp * (skewness(&means) / SKEWNESS).powi(2));
     }
-    let most = effort.rays * spp / pilot.rays as f64;
-    let least = f64::from((2 * FIRST).div_ceil(pixels));
+    let most = rays * spp / pilot.rays as f64;
+    let least = f64::from(FIRST.div_ceil(pixels));
     Ok((wanted.min(most).max(least) as u32).clamp(1, 1 << 24).next_power_of_two())
 }
 
@@ -163,8 +172,8 @@ fn brightest(rgb: [f64; 3]) -> (usize, f64) {
     (0..3).map(|c| (c, rgb[c])).fold((0, rgb[0]), |best, x| if x.1 > best.1 { x } else { best })
 }
 
-/// Compares with what is expected; `samples` of a pixel are in each replicate.
-fn judge(way: &str, expect: &Expect, renders: &Renders, samples: u32, found: &mut Findings) {
+/// Compares with what is expected.
+fn judge(way: &str, expect: &Expect, renders: &Renders, found: &mut Findings) {
     let granted = ROUNDING + expect.tolerance;
     for (what, exact, image) in quantities(expect, renders) {
         let first = found.checks.checks().len();
@@ -177,8 +186,7 @@ fn judge(way: &str, expect: &Expect, renders: &Renders, samples: u32, found: &mu
                 // No radiance is negative: a mean of 0 is 0 in all samples.
                 found.checks.holds(format!("{name} is nothing"), moments.mean() == 0.0);
             } else {
-                let [n, dof] =
-                    [moments.n() as f64 * image.pixel_count() * f64::from(samples), moments.n() as f64 - 1.0];
+                let [n, dof] = [moments.n() as f64 * image.pixel_count() * renders.samples, moments.n() as f64 - 1.0];
                 let se = moments.standard_error().hypot(unseen(exact[c], n));
                 let (exact, rounding) = (exact[c], granted * exact[c]);
                 found.checks.push(name, Evidence::Z { exact, estimate: moments.mean(), se, dof, rounding });
@@ -186,7 +194,7 @@ fn judge(way: &str, expect: &Expect, renders: &Renders, samples: u32, found: &mu
         }
         let (c, value) = brightest(exact);
         if value > 0.0 && image.pixel_count() > 1.0 {
-            let tiles = estimates(image, c, value, samples).into_iter();
+            let tiles = estimates(image, c, value, renders.samples).into_iter();
             let (p, n) = worst(tiles.map(|tile| tile.minus_exact(value).p_of_zero(granted * value)));
             found.checks.p(format!("{what} {way}: worst of {n} tiles"), p);
         }

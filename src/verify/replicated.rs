@@ -3,8 +3,8 @@
 
 use super::Findings;
 use super::measure::REPLICATES;
-use crate::film::{CLASSES, Film};
-use crate::render::{BadSample, Error, Settings, render};
+use crate::film::CLASSES;
+use crate::render::{BadSample, Error, Output, Settings, render};
 use crate::sampler::hash;
 use crate::scene::Scene;
 use crate::stats::Moments;
@@ -14,8 +14,11 @@ use std::sync::atomic::AtomicBool;
 /// Pixels that are averaged: x0, y0, x1, y1 (upper ends excluded).
 pub type Area = [usize; 4];
 
+/// Most pixels along a side that are kept of each replicate; larger images are averaged in blocks.
+const MOST: usize = 64;
+
 /// The same image, estimated several times with independent numbers.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replicated {
     /// Width and height.
     pub size: [usize; 2],
@@ -41,18 +44,34 @@ impl Replicated {
     }
 
     /// Mean of a channel over an area, in each replicate.
-    pub fn means(&self, [x0, y0, x1, y1]: Area, channel: usize) -> Vec<f64> {
-        let n = ((x1 - x0) * (y1 - y0)) as f64;
-        let row = |image: &[[f64; 3]], y: usize| -> f64 {
-            image[y * self.size[0]..][x0..x1].iter().map(|rgb| rgb[channel]).sum()
-        };
-        self.images.iter().map(|image| (y0..y1).map(|y| row(image, y)).sum::<f64>() / n).collect()
+    pub fn means(&self, area: Area, channel: usize) -> Vec<f64> {
+        self.images.iter().map(|image| mean(self.size[0], area, |i| image[i][channel])).collect()
     }
 
     /// Moments of [`means`](Self::means).
     pub fn moments(&self, area: Area, channel: usize) -> Moments {
         self.means(area, channel).into_iter().collect()
     }
+}
+
+/// Mean over an area of what an image of this width has, row by row.
+fn mean(width: usize, [x0, y0, x1, y1]: Area, pixel: impl Fn(usize) -> f64) -> f64 {
+    let sum: f64 = (y0..y1).flat_map(|y| (x0..x1).map(move |x| y * width + x)).map(pixel).sum();
+    sum / ((x1 - x0) * (y1 - y0)) as f64
+}
+
+/// An image in blocks, at most [`MOST`] a side, and their number along the sides. The last blocks of rows and columns reach
+/// back into those before them where the sides are no multiple, so that all are of one size.
+fn blocks(size: [usize; 2], pixels: &[[f64; 3]]) -> ([usize; 2], Vec<[f64; 3]>) {
+    let side = size[0].max(size[1]).div_ceil(MOST).max(1);
+    let side = [0, 1].map(|k| side.min(size[k]));
+    let count = [0, 1].map(|k| size[k].div_ceil(side[k]));
+    let from = |k: usize, i: usize| (i * side[k]).min(size[k] - side[k]);
+    let block = |x: usize, y: usize| {
+        let [x, y] = [from(0, x), from(1, y)];
+        [0, 1, 2].map(|c| mean(size[0], [x, y, x + side[0], y + side[1]], |i| pixels[i][c]))
+    };
+    (count, (0..count[1]).flat_map(|y| (0..count[0]).map(move |x| (x, y))).map(|(x, y)| block(x, y)).collect())
 }
 
 /// What [`renders`] found.
@@ -68,6 +87,8 @@ pub struct Renders {
     pub bad_count: u64,
     /// Rays traced.
     pub rays: u64,
+    /// Samples in each pixel of each image, on average where pixels are blocks.
+    pub samples: f64,
 }
 
 /// Counts samples that are no radiance, over any number of renders.
@@ -97,31 +118,46 @@ impl Census {
 }
 
 /// Renders [`REPLICATES`] times with seeds that are made of `settings.seed`: each is one replicate of `settings.spp`
-/// samples a pixel, a power of two.
+/// samples a pixel, a power of two. Images of more than 64 pixels a side are kept in blocks.
 pub fn renders(scene: &Scene, settings: &Settings) -> Result<Renders, Error> {
+    let [x0, y0, x1, y1] = settings.crop;
+    let size = [x1.saturating_sub(x0) as usize, y1.saturating_sub(y0) as usize];
+    let classes = if settings.transport { CLASSES.len() } else { 0 };
     let one = |index: u64| {
         let seed = hash(&[settings.seed, index]);
         let alone =
             Settings { seed, replicate: settings.spp, tile: u32::MAX, threads: 0, time: None, ..settings.clone() };
-        render(scene, &alone, &AtomicBool::new(false), &|_| {}).map(|output| (seed, output))
+        let Output { film, bad, bad_count, rays, .. } = render(scene, &alone, &AtomicBool::new(false), &|_| {})?;
+        let keep = |mean: &dyn Fn(u32, u32) -> [f64; 3]| {
+            blocks(size, &film.pixels().map(|[x, y]| mean(x, y)).collect::<Vec<_>>())
+        };
+        let mut images = vec![keep(&|x, y| film.mean(x, y))];
+        images.extend((0..classes).map(|class| keep(&|x, y| film.class_mean(class, x, y).unwrap_or_default())));
+        Ok::<_, Error>((images, bad.first().map(|bad| (seed, *bad)), bad_count, rays))
     };
     let outputs = (0..REPLICATES).into_par_iter().map(one).collect::<Result<Vec<_>, _>>()?;
-    let [x0, y0, x1, y1] = settings.crop;
-    let gather = |mean: &dyn Fn(&Film, u32, u32) -> [f64; 3]| Replicated {
-        size: [(x1 - x0) as usize, (y1 - y0) as usize],
-        images: outputs
-            .iter()
-            .map(|(_, output)| output.film.pixels().map(|[x, y]| mean(&output.film, x, y)).collect())
-            .collect(),
+    let mut found = Renders {
+        beauty: Replicated::default(),
+        layers: Vec::new(),
+        bad: Vec::new(),
+        bad_count: 0,
+        rays: 0,
+        samples: 0.0,
     };
-    let classes = if settings.transport { 0..CLASSES.len() } else { 0..0 };
-    Ok(Renders {
-        beauty: gather(&Film::mean),
-        layers: classes.map(|class| gather(&|film, x, y| film.class_mean(class, x, y).unwrap_or_default())).collect(),
-        bad: outputs.iter().filter_map(|(seed, output)| Some((*seed, *output.bad.first()?))).collect(),
-        bad_count: outputs.iter().map(|(_, output)| output.bad_count).sum(),
-        rays: outputs.iter().map(|(_, output)| output.rays).sum(),
-    })
+    let mut quantities = vec![Replicated::default(); 1 + classes];
+    for (images, bad, bad_count, rays) in outputs {
+        for (quantity, (size, image)) in quantities.iter_mut().zip(images) {
+            quantity.size = size;
+            quantity.images.push(image);
+        }
+        found.bad.extend(bad);
+        found.bad_count += bad_count;
+        found.rays += rays;
+    }
+    found.layers = quantities.split_off(1);
+    found.beauty = quantities.swap_remove(0);
+    found.samples = f64::from(settings.spp) * (size[0] * size[1]) as f64 / found.beauty.pixel_count();
+    Ok(found)
 }
 
 /// Skewness of a sample, m3/m2^(3/2).
@@ -135,6 +171,16 @@ pub fn skewness(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn small_images_are_kept_and_large_ones_averaged() {
+        let ramp = |n: usize| (0..n).map(|i| [i as f64, 1.0, 0.0]).collect::<Vec<_>>();
+        assert_eq!(blocks([5, 3], &ramp(15)), ([5, 3], ramp(15)));
+        let (size, image) = blocks([130, 2], &ramp(260));
+        assert_eq!((size, image.len()), ([44, 1], 44));
+        // Columns 0 to 2 and 127 to 129 of both rows.
+        assert_eq!((image[0], image[43]), ([66.0, 1.0, 0.0], [193.0, 1.0, 0.0]));
+    }
 
     #[test]
     fn rare_events_are_skew() {

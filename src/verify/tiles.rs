@@ -67,15 +67,15 @@ pub fn tiles([w, h]: [usize; 2]) -> Vec<Area> {
 
 /// A channel of an image by [`tiles`]. A tile sees few of the rare events, perhaps none, and then does not know its own
 /// error: it is taken as if it had seen some more of the largest that any tile has seen (at least of the size
-/// `least`, as it changes the mean of a sample), which costs tiles without rare events half of their power.
-pub fn estimates(image: &Replicated, channel: usize, least: f64, samples: u32) -> Vec<Estimate> {
+/// `least`, as it changes a sample, of which a pixel has so many), which costs tiles without rare events half of their power.
+pub fn estimates(image: &Replicated, channel: usize, least: f64, samples: f64) -> Vec<Estimate> {
     let tiles = tiles(image.size);
     let means: Vec<Vec<f64>> = tiles.iter().map(|&tile| image.means(tile, channel)).collect();
     let moments: Vec<Moments> = means.iter().map(|means| means.iter().copied().collect()).collect();
     let event = |(means, m): (&Vec<f64>, &Moments)| means.iter().map(|x| (x - m.mean()).abs()).fold(0.0, f64::max);
     let largest = means.iter().zip(&moments).map(event).fold(0.0, f64::max);
     let estimate = |(m, [x0, y0, x1, y1]): (&Moments, &Area)| {
-        let in_tile = ((x1 - x0) * (y1 - y0)) as f64 * f64::from(samples);
+        let in_tile = ((x1 - x0) * (y1 - y0)) as f64 * samples;
         let plain = Estimate::of(m);
         Estimate { se: plain.se.hypot(unseen(largest.max(least / in_tile), REPLICATES as f64)), ..plain }
     };
@@ -114,7 +114,7 @@ mod tests {
         // Two tiles; 20 events of size 1 were expected in the mean of 64, one tile met them and the other none.
         let replicate = |i: usize| vec![[f64::from(u8::from(i < 20)); 3], [0.0; 3]];
         let image = Replicated { size: [2, 1], images: (0..64).map(replicate).collect() };
-        for estimate in estimates(&image, 0, 0.0, 1) {
+        for estimate in estimates(&image, 0, 0.0, 1.0) {
             let off = Estimate { mean: estimate.mean - 5.0 / 64.0, ..estimate };
             assert!(off.p_of_zero(0.0) > 1e-4, "{estimate:?}");
         }

@@ -2,8 +2,7 @@
 //! the formula stands in the file's header. A new file in `scenes/verify/` is a new task.
 
 use crate::scene::Scene;
-use crate::verify::expect::{Effort, check, ways};
-use crate::verify::replicated::Census;
+use crate::verify::expect::{Effort, checks};
 use crate::verify::{Findings, Task, Topic, Trial, scenes};
 
 /// The rows, as the table of closed forms has them.
@@ -71,19 +70,10 @@ fn run(name: &str, row: &str, trial: &Trial, found: &mut Findings) {
         Ok(scene) => scene,
         Err(e) => return found.checks.holds(format!("can be compiled: {e}"), false),
     };
-    let size = desc.cameras.first().and_then(|camera| camera.resolution).unwrap_or([8, 8]);
     found.checks.holds("an answer is given", !desc.expect.is_empty());
-    let aim = if row.starts_with('F') { 1e-3 } else { 5e-3 };
-    let mut census = Census::default();
-    for expect in &desc.expect {
-        let ways = ways(expect);
-        for (i, &way) in ways.iter().enumerate() {
-            // The renderer's own way gets most: it shows what the row detects.
-            let rays = if i + 1 == ways.len() { trial.pick(7e5, 2.5e7) } else { trial.pick(5e4, 1.5e6) };
-            check(&scene, size, expect, way, Effort { aim, rays }, trial, &mut census, found);
-        }
-    }
-    census.report(found);
+    let aim = trial.pick(1.0, 0.5) * if row.starts_with('F') { 1e-3 } else { 5e-3 };
+    let effort = Effort { aim, own: trial.pick(7e5, 2.5e7), others: trial.pick(5e4, 1.5e6) };
+    checks(&desc, &scene, effort, trial, found);
 }
 
 #[cfg(test)]
