@@ -35,7 +35,7 @@ fn topic(i: usize, group: &Group, figures: &Figures, share: f64, rows: usize) ->
         details.topic id={ "t" (i) } open[failing] {
             summary { (badge(!failing)) span.id { (group.topic.id) } (group.topic.title) }
             div.inside {
-                @if !group.topic.source.is_empty() { p.faint { (group.topic.source) } }
+                @for source in group.sources() { p.faint { (source) } }
                 @for (j, section) in group.sections.iter().enumerate() {
                     (subject(&format!("t{i}s{j}"), section, share, rows))
                 }
