@@ -59,7 +59,7 @@ fn subject(id: &str, section: &Section, share: f64, rows: usize) -> Markup {
             summary {
                 (badge(!fails))
                 span.name { (one_line(&section.subject)) }
-                span.n { (count(digest.checks)) " checks" }
+                span.n { (count(digest.checks)) @if digest.checks == 1 { " check" } @else { " checks" } }
                 span.n { (worst) }
                 span.n { @if let Some(bias) = digest.detects { "detects " (percent(bias)) } }
             }
