@@ -72,3 +72,8 @@ pub mod verify;
 pub mod warp;
 
 pub use glam;
+
+/// The README's Rust, compiled with the documentation's tests.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

@@ -25,5 +25,8 @@ pub fn tasks() -> Vec<Task> {
         scenes::tasks,
         warp::tasks,
     ];
-    rows.iter().flat_map(|row| row()).collect()
+    let mut tasks: Vec<Task> = rows.iter().flat_map(|row| row()).collect();
+    // As tables are read, whatever file a row comes from; numbers depend on names alone.
+    tasks.sort_by_key(|task| task.topic.id);
+    tasks
 }

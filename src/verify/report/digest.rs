@@ -6,7 +6,7 @@ use crate::stats::{Check, Evidence};
 /// The sections of one topic.
 #[derive(Clone, Debug)]
 pub struct Group<'a> {
-    /// The topic.
+    /// The topic; where several say one `id`, the first of them.
     pub topic: Topic,
     /// Its sections, in the order of their tasks.
     pub sections: Vec<&'a Section>,
@@ -16,6 +16,17 @@ impl<'a> Group<'a> {
     /// All its checks.
     pub fn checks(&self) -> impl Iterator<Item = &'a Check> {
         self.sections.iter().flat_map(|section| &section.checks)
+    }
+
+    /// Where what must hold comes from, each once.
+    pub fn sources(&self) -> Vec<&'static str> {
+        let mut sources = Vec::new();
+        for source in self.sections.iter().map(|section| section.topic.source) {
+            if !source.is_empty() && !sources.contains(&source) {
+                sources.push(source);
+            }
+        }
+        sources
     }
 }
 
@@ -39,12 +50,12 @@ impl<'a> Digest<'a> {
         let mut least = (f64::INFINITY, f64::INFINITY);
         for check in checks {
             digest.checks += 1;
-            let (p, room) = (check.p(), room(check));
-            if p < share {
+            let rank = (check.p(), room(check));
+            if rank.0 < share {
                 digest.failures.push(check);
             }
-            if digest.worst.is_none() || (p, room) < least {
-                (digest.worst, least) = (Some(check), (p, room));
+            if digest.worst.is_none() || rank < least {
+                (digest.worst, least) = (Some(check), rank);
             }
             if let Some(bias) = check.detects(share).filter(|bias| bias.is_finite()) {
                 digest.detects = Some(digest.detects.map_or(bias, |most| most.max(bias)));
@@ -59,11 +70,13 @@ impl<'a> Digest<'a> {
     }
 }
 
-/// What orders checks of equal p: how far an identity is from its bound.
+/// What orders checks of equal p, which is mostly 0 or 1: estimates by how far they are off, identities by how close they
+/// are to their bound, then what has nothing more to say.
 fn room(check: &Check) -> f64 {
     match check.evidence {
-        Evidence::Bound { worst, bound } => bound - worst,
-        _ => -check.t().map_or(0.0, f64::abs),
+        Evidence::Z { .. } => -1.0 - check.t().map_or(0.0, f64::abs),
+        Evidence::Bound { worst, bound } => 1.0 - (worst / bound).min(2.0),
+        Evidence::P { .. } => f64::MAX,
     }
 }
 

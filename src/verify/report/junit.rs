@@ -68,7 +68,7 @@ fn suite(out: &mut Out, group: &Group, report: &Report, about: &About, share: f6
                 ("seed", report.seed.to_string()),
                 ("alpha", report.alpha.to_string()),
                 ("p limit", share.to_string()),
-                ("source", group.topic.source.to_string()),
+                ("source", group.sources().join("; ")),
             ];
             properties.iter().try_for_each(|(name, value)| {
                 out.create_element("property")

@@ -89,7 +89,7 @@ impl Report {
     pub fn groups(&self) -> Vec<Group<'_>> {
         let mut groups: Vec<Group> = Vec::new();
         for section in &self.sections {
-            match groups.iter_mut().find(|group| group.topic == section.topic) {
+            match groups.iter_mut().find(|group| group.topic.id == section.topic.id) {
                 Some(group) => group.sections.push(section),
                 None => groups.push(Group { topic: section.topic, sections: vec![section] }),
             }

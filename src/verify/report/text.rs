@@ -6,7 +6,7 @@ use crate::stats::Check;
 use crate::verify::Size;
 use anstyle::{AnsiColor, Style};
 use std::fmt::{self, Write};
-use unicode_width::UnicodeWidthStr;
+use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
 
 /// Columns that a table takes.
 pub const WIDTH: usize = 100;
@@ -30,7 +30,7 @@ const BAD: Style = AnsiColor::Red.on_default().bold();
 
 /// Widths of verdict, name, number of checks, exact value, estimate, statistic, detectable bias; a space between them
 /// and two before them.
-const COLUMNS: [usize; 7] = [4, 33, 5, 10, 21, 10, 8];
+const COLUMNS: [usize; 7] = [4, 33, 6, 10, 21, 10, 8];
 
 /// The table, coloured: print it through a stream that takes colours out where nobody sees them.
 pub fn table(report: &Report, detail: Detail) -> String {
@@ -55,7 +55,7 @@ fn write_table(out: &mut String, report: &Report, detail: Detail) -> fmt::Result
 }
 
 fn heading(out: &mut String) -> fmt::Result {
-    let names = ["", "subject (its least likely check)", "check", "exact", "estimate ± SE", "z or p", "detects"];
+    let names = ["", "subject (its least likely check)", "checks", "exact", "estimate ± SE", "z or p", "detects"];
     let cells = std::array::from_fn(|i| names[i].to_string());
     line(out, FAINT, &cells, FAINT)
 }
@@ -65,8 +65,8 @@ fn write_group(out: &mut String, group: &Group, share: f64, detail: Detail) -> f
     for (i, part) in wrap(&title, WIDTH).iter().enumerate() {
         writeln!(out, "{}{STRONG}{part}{STRONG:#}", if i == 0 { "\n" } else { "" })?;
     }
-    if detail == Detail::All && !group.topic.source.is_empty() {
-        for part in wrap(group.topic.source, WIDTH - 4) {
+    if detail == Detail::All {
+        for part in group.sources().iter().flat_map(|source| wrap(source, WIDTH - 4)) {
             writeln!(out, "    {FAINT}{part}{FAINT:#}")?;
         }
     }
@@ -120,20 +120,21 @@ fn row(out: &mut String, passes: bool, name: &str, checks: &str, cells: Cells) -
     line(out, style, &cells, Style::new())
 }
 
-/// Verdict and name to the left, numbers to the right; a name that is too long loses its end.
+/// Verdict and name to the left, numbers to the right; what a name has too much goes on below it.
 fn line(out: &mut String, verdict: Style, cells: &[String; 7], others: Style) -> fmt::Result {
-    let mut text = String::new();
-    for (i, (cell, width)) in cells.iter().zip(COLUMNS).enumerate().skip(1) {
-        let cell = shorten(cell, width);
-        let space = " ".repeat(width - cell.width());
-        match i {
-            1 => write!(text, " {cell}{space}")?,
-            _ => write!(text, " {space}{cell}")?,
-        }
+    let mut name = wrap(&cells[1], COLUMNS[1]).into_iter();
+    let mut text = format!(" {}", pad(&name.next().unwrap_or_default(), COLUMNS[1], ""));
+    for (cell, width) in cells.iter().zip(COLUMNS).skip(2) {
+        text += &format!(" {}", pad("", width.saturating_sub(cell.width()), cell));
     }
-    let text = text.trim_end();
-    let space = " ".repeat(COLUMNS[0].saturating_sub(cells[0].width()));
-    writeln!(out, "  {verdict}{}{verdict:#}{space}{others}{text}{others:#}", cells[0])
+    let label = pad("", COLUMNS[0].saturating_sub(cells[0].width()), "");
+    writeln!(out, "  {verdict}{}{verdict:#}{label}{others}{}{others:#}", cells[0], text.trim_end())?;
+    name.try_for_each(|part| writeln!(out, "{:7}{part}", ""))
+}
+
+/// `left`, spaces up to `width` columns, `right`.
+fn pad(left: &str, width: usize, right: &str) -> String {
+    format!("{left}{}{right}", " ".repeat(width.saturating_sub(left.width())))
 }
 
 fn summary(out: &mut String, report: &Report, share: f64) -> fmt::Result {
@@ -167,31 +168,29 @@ fn summary(out: &mut String, report: &Report, share: f64) -> fmt::Result {
     writeln!(out, "; size {size}, seed {}, {time:.1} s", report.seed)
 }
 
-/// At most `width` columns, the last of them `…` where something is missing.
-fn shorten(text: &str, width: usize) -> String {
-    if text.width() <= width {
-        return text.into();
-    }
-    let mut short = String::new();
-    for c in text.chars() {
-        if short.width() + c.to_string().width() + 1 > width {
-            break;
-        }
-        short.push(c);
-    }
-    short + "…"
-}
-
 /// Lines of at most `width` columns, broken between words where that can be.
 fn wrap(text: &str, width: usize) -> Vec<String> {
-    let mut lines: Vec<String> = Vec::new();
-    for word in one_line(text).split(' ') {
-        match lines.last_mut() {
-            Some(last) if last.width() + 1 + word.width() <= width => *last += &format!(" {word}"),
-            _ => lines.push(word.into()),
+    let mut lines = vec![String::new()];
+    let mut last = 0;
+    for word in one_line(text).split_inclusive(' ') {
+        if last + word.trim_end().width() > width && last > 0 {
+            lines.push(String::new());
+            last = 0;
+        }
+        // Only a word that is longer than a line is broken itself.
+        for c in word.chars() {
+            let wide = c.width().unwrap_or(0);
+            if last + wide > width && c != ' ' {
+                lines.push(String::new());
+                last = 0;
+            }
+            if let Some(line) = lines.last_mut() {
+                line.push(c);
+            }
+            last += wide;
         }
     }
-    lines
+    lines.into_iter().map(|line| line.trim_end().to_string()).collect()
 }
 
 impl fmt::Display for Report {
@@ -238,8 +237,14 @@ mod tests {
     }
 
     #[test]
-    fn long_names_end_in_an_ellipsis() {
-        assert_eq!([shorten("abcdef", 6), shorten("abcdef", 5), shorten("日本語", 5)], ["abcdef", "abcd…", "日本…"]);
+    fn long_names_go_on_below() {
         assert_eq!(wrap("one two three", 7), ["one two", "three"]);
+        assert_eq!(wrap("  ab abcdefgh", 4), ["  ab", "abcd", "efgh"]);
+        assert_eq!(wrap("日本語 a", 5), ["日本", "語 a"]);
+        assert_eq!(wrap("", 5), [""]);
+        let mut text = String::new();
+        row(&mut text, true, &"word ".repeat(10), "3", Cells { detects: "1 %".into(), ..Cells::default() }).unwrap();
+        let lines: Vec<&str> = text.lines().collect();
+        assert!(lines.len() == 2 && lines[0].ends_with("1 %") && lines[1].trim() == "word word word word", "{text}");
     }
 }

@@ -10,7 +10,7 @@ const TOP: f64 = 12.0;
 const BOTTOM: f64 = 44.0;
 
 /// Steps between ticks, at most.
-const TICKS: f64 = 5.0;
+const TICKS: f64 = 6.0;
 
 /// What the axes span.
 #[derive(Clone, Copy, Debug)]
@@ -118,7 +118,7 @@ mod tests {
     #[test]
     fn ticks_are_round_numbers_around_all() {
         assert_eq!(labels(&[0.0, 1.0]), ["0.0", "0.2", "0.4", "0.6", "0.8", "1.0"]);
-        assert_eq!(labels(&[-0.03, 0.03]), ["-0.04", "-0.02", "0.00", "0.02", "0.04"]);
+        assert_eq!(labels(&[-0.03, 0.03]), ["-0.03", "-0.02", "-0.01", "0.00", "0.01", "0.02", "0.03"]);
         assert_eq!(labels(&[0.99991, 1.00004]).first().map(String::as_str), Some("0.99990"));
         assert_eq!(labels(&[f64::NAN, 0.0, 90.0]).len(), 6);
     }

@@ -35,7 +35,7 @@ fn topic(i: usize, group: &Group, figures: &Figures, share: f64, rows: usize) ->
         details.topic id={ "t" (i) } open[failing] {
             summary { (badge(!failing)) span.id { (group.topic.id) } (group.topic.title) }
             div.inside {
-                @if !group.topic.source.is_empty() { p.faint { (group.topic.source) } }
+                @for source in group.sources() { p.faint { (source) } }
                 @for (j, section) in group.sections.iter().enumerate() {
                     (subject(&format!("t{i}s{j}"), section, share, rows))
                 }
@@ -59,7 +59,7 @@ fn subject(id: &str, section: &Section, share: f64, rows: usize) -> Markup {
             summary {
                 (badge(!fails))
                 span.name { (one_line(&section.subject)) }
-                span.n { (count(digest.checks)) " checks" }
+                span.n { (count(digest.checks)) @if digest.checks == 1 { " check" } @else { " checks" } }
                 span.n { (worst) }
                 span.n { @if let Some(bias) = digest.detects { "detects " (percent(bias)) } }
             }
