@@ -13,41 +13,41 @@ const TICK: Duration = Duration::from_millis(50);
 
 /// What the battery said.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Outcome {
+pub(crate) struct Outcome {
     /// Every row that was run, in its order.
-    pub rows: Vec<Row>,
+    pub(crate) rows: Vec<Row>,
     /// Where there was no verdict: how the program ended instead.
-    pub ended: Option<String>,
+    pub(crate) ended: Option<String>,
     /// Wall-clock time \[s\].
-    pub seconds: f64,
+    pub(crate) seconds: f64,
 }
 
 /// One row of the battery.
 #[derive(Clone, Debug, Serialize, Deserialize)]
-pub struct Row {
+pub(crate) struct Row {
     /// A1, F2, …
-    pub id: String,
+    pub(crate) id: String,
     /// Checks that failed, and how many there are.
-    pub failed: usize,
+    pub(crate) failed: usize,
     /// All checks.
-    pub checks: usize,
+    pub(crate) checks: usize,
     /// The first that failed, with its z or p.
-    pub first: Option<String>,
+    pub(crate) first: Option<String>,
 }
 
 impl Outcome {
     /// The rows in which a check failed.
-    pub fn failed(&self) -> impl Iterator<Item = &Row> {
+    pub(crate) fn failed(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.failed > 0)
     }
 
     /// True where something was noticed, be it a crash.
-    pub fn caught(&self) -> bool {
+    pub(crate) fn caught(&self) -> bool {
         self.ended.is_some() || self.failed().next().is_some()
     }
 
     /// What was noticed first.
-    pub fn first(&self) -> Option<&str> {
+    pub(crate) fn first(&self) -> Option<&str> {
         self.ended.as_deref().or_else(|| self.failed().find_map(|row| row.first.as_deref()))
     }
 }
@@ -76,11 +76,11 @@ struct Check {
 }
 
 /// Where programs are built, and where they write.
-pub struct Workshop {
+pub(crate) struct Workshop {
     /// cargo's target folder, kept from fault to fault: dependencies are built once.
-    pub build: PathBuf,
+    pub(crate) build: PathBuf,
     /// Findings and complaints of the last run.
-    pub scratch: PathBuf,
+    pub(crate) scratch: PathBuf,
 }
 
 impl Workshop {
@@ -88,7 +88,7 @@ impl Workshop {
     ///
     /// # Errors
     /// With what the compiler said.
-    pub fn build(&self, tree: &Path) -> Result<()> {
+    pub(crate) fn build(&self, tree: &Path) -> Result<()> {
         let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
         let output = Command::new(cargo)
             .args(["build", "--quiet", "--profile", "faults", "--bin", "radianza", "--target-dir"])
@@ -103,7 +103,7 @@ impl Workshop {
     }
 
     /// Runs the battery of the program built last, or the given rows of it.
-    pub fn run(&self, tree: &Path, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
+    pub(crate) fn run(&self, tree: &Path, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
         let [findings, complaints] = ["findings.json", "stderr.txt"].map(|name| self.scratch.join(name));
         let _ = fs::remove_file(&findings);
         let stderr = File::create(&complaints).map_err(|e| format!("{}: {e}", complaints.display()))?;

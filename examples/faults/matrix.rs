@@ -14,21 +14,21 @@ that a patch names does not notice it, or where a row notices none.
 ";
 
 /// The faults that were planted, and what the battery said to each.
-pub struct Matrix<'a> {
+pub(crate) struct Matrix<'a> {
     /// All rows of the battery, in its order.
-    pub rows: Vec<String>,
+    pub(crate) rows: Vec<String>,
     /// Outcome of each fault.
-    pub faults: Vec<(&'a Patch, Outcome)>,
+    pub(crate) faults: Vec<(&'a Patch, Outcome)>,
 }
 
 impl Matrix<'_> {
     /// Faults that nothing notices.
-    pub fn uncaught(&self) -> Vec<&str> {
+    pub(crate) fn uncaught(&self) -> Vec<&str> {
         self.faults.iter().filter(|(_, outcome)| !outcome.caught()).map(|(patch, _)| &*patch.name).collect()
     }
 
     /// Faults with rows that should have noticed them and did not. A program that ends early shows no row.
-    pub fn unnoticed(&self) -> Vec<String> {
+    pub(crate) fn unnoticed(&self) -> Vec<String> {
         let missing = |(patch, outcome): &(&Patch, Outcome)| {
             let failed = |row: &&String| !outcome.failed().any(|failed| failed.id == **row);
             let rows: Vec<&str> = patch.rows.iter().filter(failed).map(String::as_str).collect();
@@ -38,14 +38,14 @@ impl Matrix<'_> {
     }
 
     /// Rows that notice no fault.
-    pub fn idle(&self) -> Vec<&str> {
+    pub(crate) fn idle(&self) -> Vec<&str> {
         let notices =
             |row: &str| self.faults.iter().any(|(_, outcome)| outcome.failed().any(|failed| failed.id == row));
         self.rows.iter().map(String::as_str).filter(|row| !notices(row)).collect()
     }
 
     /// As Markdown. Nothing in it depends on the day, the machine or its speed.
-    pub fn markdown(&self) -> String {
+    pub(crate) fn markdown(&self) -> String {
         let mut text = String::from(HEAD);
         let columns = self.rows.join(" | ");
         let _ = writeln!(text, "\n{} faults, {} rows.\n", self.faults.len(), self.rows.len());
@@ -64,7 +64,7 @@ impl Matrix<'_> {
     }
 
     /// For a terminal: a line a fault, a letter a row.
-    pub fn table(&self) -> String {
+    pub(crate) fn table(&self) -> String {
         let width = self.faults.iter().map(|(patch, _)| patch.name.len()).max().unwrap_or(0);
         let longest = self.rows.iter().map(String::len).max().unwrap_or(0);
         let mut text = String::new();

@@ -17,26 +17,26 @@ use std::fs;
 use std::path::Path;
 
 /// What went wrong, in words.
-pub type Result<T> = std::result::Result<T, String>;
+pub(crate) type Result<T> = std::result::Result<T, String>;
 
 /// One fault.
 #[derive(Clone, Debug)]
-pub struct Patch {
+pub(crate) struct Patch {
     /// The file's name without `.patch`.
-    pub name: String,
+    pub(crate) name: String,
     /// What is wrong, a sentence.
-    pub what: String,
+    pub(crate) what: String,
     /// The rows that should notice.
-    pub rows: Vec<String>,
+    pub(crate) rows: Vec<String>,
     /// The files that it changes.
-    pub files: Vec<FilePatch>,
+    pub(crate) files: Vec<FilePatch>,
 }
 
 /// The changes of one file.
 #[derive(Clone, Debug)]
-pub struct FilePatch {
+pub(crate) struct FilePatch {
     /// Path from the root of the tree, with `/`.
-    pub path: String,
+    pub(crate) path: String,
     hunks: Vec<Hunk>,
 }
 
@@ -51,7 +51,7 @@ struct Hunk {
 }
 
 /// All `*.patch` of a folder, by name.
-pub fn load(folder: &Path) -> Result<Vec<Patch>> {
+pub(crate) fn load(folder: &Path) -> Result<Vec<Patch>> {
     let entries = fs::read_dir(folder).map_err(|e| format!("{}: {e}", folder.display()))?;
     let mut patches = Vec::new();
     for entry in entries {
@@ -68,7 +68,7 @@ pub fn load(folder: &Path) -> Result<Vec<Patch>> {
 
 impl Patch {
     /// Reads a patch.
-    pub fn parse(name: &str, text: &str) -> Result<Self> {
+    pub(crate) fn parse(name: &str, text: &str) -> Result<Self> {
         let fail = |what: &str| format!("{name}.patch: {what}");
         let (head, diff) = text.split_once("\n--- a/").ok_or_else(|| fail("no line begins with `--- a/`"))?;
         let (what, rows) = head.split_once("\nNoticed by:").ok_or_else(|| fail("no line begins with `Noticed by:`"))?;
@@ -114,7 +114,7 @@ impl FilePatch {
     }
 
     /// The file with the fault in it. Each hunk goes where its lines are, the nearest such place to where it was.
-    pub fn apply(&self, text: &str) -> Result<String> {
+    pub(crate) fn apply(&self, text: &str) -> Result<String> {
         let mut lines: Vec<&str> = text.lines().collect();
         let mut drift = 0;
         for hunk in &self.hunks {

@@ -14,15 +14,15 @@ type Files = BTreeMap<PathBuf, Vec<u8>>;
 
 /// The original, in memory, and where its copy stands. A file of the copy is written only where it differs, so that
 /// cargo builds no more than what a fault changes.
-pub struct Tree {
+pub(crate) struct Tree {
     original: Files,
     /// Where the copy stands.
-    pub copy: PathBuf,
+    pub(crate) copy: PathBuf,
 }
 
 impl Tree {
     /// Copies `root` to `copy`, and takes away what is only there.
-    pub fn new(root: &Path, copy: PathBuf) -> Result<Self> {
+    pub(crate) fn new(root: &Path, copy: PathBuf) -> Result<Self> {
         let mut original = Files::new();
         for entry in entries(root)? {
             let name = entry.file_name().unwrap_or_default().to_string_lossy();
@@ -43,17 +43,17 @@ impl Tree {
     }
 
     /// Makes the copy equal to the original.
-    pub fn restore(&self) -> Result<()> {
+    pub(crate) fn restore(&self) -> Result<()> {
         self.original.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
     }
 
     /// Plants a fault in the copy.
-    pub fn plant(&self, patch: &Patch) -> Result<()> {
+    pub(crate) fn plant(&self, patch: &Patch) -> Result<()> {
         self.planted(patch)?.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
     }
 
     /// A number that tells trees apart: of the original, or with a fault in it.
-    pub fn hash(&self, patch: Option<&Patch>) -> Result<u64> {
+    pub(crate) fn hash(&self, patch: Option<&Patch>) -> Result<u64> {
         let planted = patch.map(|patch| self.planted(patch)).transpose()?.unwrap_or_default();
         let mut hasher = DefaultHasher::new();
         for (path, bytes) in &self.original {
