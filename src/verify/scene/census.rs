@@ -13,7 +13,7 @@ const TOPIC: Topic = Topic {
 };
 
 /// Rays of an image.
-const RAYS: [u64; 2] = [12_000_000, 120_000_000];
+const RAYS: [u64; 2] = [8_000_000, 120_000_000];
 
 /// Most samples that are named one by one.
 const NAMED: usize = 10;

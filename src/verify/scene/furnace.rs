@@ -27,7 +27,7 @@ const TOPIC: Topic = Topic {
 };
 
 /// Rays of an image.
-const RAYS: [u64; 2] = [6_000_000, 90_000_000];
+const RAYS: [u64; 2] = [4_000_000, 60_000_000];
 
 /// Relative error of f32 along a path, and of the tables that multiple scattering is read from.
 const ROUNDING: f64 = 1e-3;

@@ -14,7 +14,6 @@ use crate::stats::{Evidence, Moments};
 use crate::texture::Textures;
 use crate::verify::scattering::{Claims, at_cosine, density, draws, energy, reciprocity, sampled};
 use crate::verify::{Curve, Exhibit, Findings, Task, Topic, Trial};
-use std::sync::Arc;
 
 const TOPIC: Topic = Topic {
     id: "material",
@@ -22,8 +21,8 @@ const TOPIC: Topic = Topic {
     source: "conservation of energy; Helmholtz; Pearson's χ²",
 };
 
-/// Most materials, by size.
-const MATERIALS: [usize; 2] = [60, 600];
+/// Most materials of the default size.
+const MATERIALS: usize = 40;
 
 /// Places of all materials together, by size.
 const PLACES: [usize; 2] = [90, 900];
@@ -57,36 +56,48 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
             None => groups.push(vec![i]),
         }
     }
-    let n = groups.len();
-    let left_out: Arc<str> = names
+    let left_out: Vec<String> = names
         .iter()
         .zip(all)
         .zip(&worn)
         .filter(|((_, m), worn)| !**worn || !scatters(m))
         .map(|((name, _), worn)| format!("`{name}` {}", if *worn { "scatters nothing" } else { "is worn by nothing" }))
-        .collect::<Vec<_>>()
-        .join(", ")
-        .into();
-    let task = |(number, group): (usize, Vec<usize>)| {
-        let subject = subject.clone();
-        let same: Vec<String> = group[1..].iter().map(|i| format!("`{}`", names[*i])).collect();
-        let (index, name, left_out) = (group[0], names[group[0]].clone(), left_out.clone());
-        Task::new(TOPIC, name.clone(), move |trial, found| {
-            if number >= trial.pick(MATERIALS[0], MATERIALS[1]) {
-                found.words.push(format!("`{name}`: left out of this size, which takes {number} materials"));
-                return;
+        .collect();
+    let n = groups.len();
+
+    // Of many materials a task takes several, and in the default size the first of them.
+    let chunk = n.div_ceil(MATERIALS).max(1);
+    let task = |(number, chunk): (usize, &[Vec<usize>])| {
+        let (subject, chunk, names) = (subject.clone(), chunk.to_vec(), names.clone());
+        let left_out = if number == 0 { left_out.clone() } else { Vec::new() };
+        Task::new(TOPIC, names[chunk[0][0]].clone(), move |trial, found| {
+            let most = trial.pick(PLACES[0], PLACES[1]) / n;
+            let most = most.clamp(1, trial.pick(PLACES_OF_ONE[0], PLACES_OF_ONE[1]));
+            let examined = trial.pick(1, chunk.len());
+            for group in &chunk[..examined] {
+                let (index, name) = (group[0], &*names[group[0]]);
+                let prefix = if examined > 1 { format!("{name}, ") } else { String::new() };
+                Exam { subject: &subject, index, name, prefix: &prefix, most }.sit(trial, found);
+                if group.len() > 1 {
+                    let same = list(group[1..].iter().map(|i| &*names[*i]));
+                    found.words.push(format!("`{name}`: the same holds of {same}, which scatter alike"));
+                }
             }
-            let most = (trial.pick(PLACES[0], PLACES[1]) / n).clamp(1, trial.pick(PLACES_OF_ONE[0], PLACES_OF_ONE[1]));
-            Exam { subject: &subject, index, name: &name, most }.sit(trial, found);
-            if !same.is_empty() {
-                found.words.push(format!("the same of {}, which scatter alike", same.join(", ")));
+            if examined < chunk.len() {
+                let others = list(chunk[examined..].iter().map(|group| &*names[group[0]]));
+                found.words.push(format!("left out of this size: {others}"));
             }
-            if number == 0 && !left_out.is_empty() {
-                found.words.push(format!("not examined: {left_out}"));
+            if !left_out.is_empty() {
+                found.words.push(format!("nothing to examine: {}", left_out.join(", ")));
             }
         })
     };
-    groups.into_iter().enumerate().map(task).collect()
+    groups.chunks(chunk).enumerate().map(task).collect()
+}
+
+/// "`a`, `b`".
+fn list<'a>(names: impl Iterator<Item = &'a str>) -> String {
+    names.map(|name| format!("`{name}`")).collect::<Vec<_>>().join(", ")
 }
 
 /// One material under test.
@@ -94,6 +105,8 @@ struct Exam<'a> {
     subject: &'a Subject,
     index: usize,
     name: &'a str,
+    /// Before the names of checks, where there are several materials.
+    prefix: &'a str,
     /// Most places.
     most: usize,
 }
@@ -119,7 +132,8 @@ impl Exam<'_> {
         let (mut albedos, mut losses) = (Vec::new(), Vec::new());
         let mut lines = Vec::new();
         for (number, place) in all.iter().enumerate() {
-            let name = if place.name.is_empty() { "anywhere" } else { &*place.name };
+            let place_name = if place.name.is_empty() { "anywhere" } else { &*place.name };
+            let name = &format!("{}{place_name}", self.prefix);
             let worn = Worn { material: &self.subject.scene.materials[self.index], textures, place };
             let trial = &trial.part(name);
             reciprocity(found, trial, name, &worn, &claims);
@@ -217,7 +231,7 @@ impl Exam<'_> {
         let name = self.name;
         let by = |a: &&Albedo, b: &&Albedo| a.value.total_cmp(&b.value);
         let Some((most, least)) = albedos.iter().max_by(by).zip(albedos.iter().min_by(by)) else { return Vec::new() };
-        let text = |a: &Albedo| format!("{:.3} ± {:.3} ({})", a.value, a.se, a.at);
+        let text = |a: &Albedo| format!("{:.4} ± {:.4} ({})", a.value, a.se, a.at);
         let mut words = vec![format!("`{name}`: sends on at most {}, at least {}", text(most), text(least))];
         if most.value - 1.0 > 6.0 * most.se + CLAIMS.granted {
             words.push(format!("`{name}`: creates energy: {:.2} % at {}", 100.0 * (most.value - 1.0), most.at));

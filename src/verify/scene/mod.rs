@@ -9,12 +9,16 @@
 //! | `material` | each material scatters by its density, both ways alike, no more than it receives; made white, all of it |
 //! | `furnace` | in a uniform environment no pixel is brighter than it, and with everything made white none darker |
 //! | `census` | no sample is NaN, infinite or negative |
+//! | `agreement` | all strategies estimate one image |
+//! | `expect` | the answers that the file carries |
 //!
 //! Defects of the data that the renderer survives are words, and their checks pass; energy out of nothing, samples that
 //! are no radiance, leaks and disagreement fail.
 
+mod agreement;
 mod census;
 mod data;
+mod expect;
 mod furnace;
 mod leaks;
 mod material;
@@ -44,8 +48,16 @@ struct Subject {
 /// tasks, and so their numbers, depend on the scene alone.
 pub fn tasks(desc: &Arc<desc::Scene>, scene: &Arc<Scene>) -> Vec<Task> {
     let subject = Subject { desc: desc.clone(), scene: scene.clone() };
-    let parts: [fn(&Subject) -> Vec<Task>; 6] =
-        [data::tasks, normals::tasks, leaks::tasks, material::tasks, furnace::tasks, census::tasks];
+    let parts: [fn(&Subject) -> Vec<Task>; 8] = [
+        data::tasks,
+        normals::tasks,
+        leaks::tasks,
+        material::tasks,
+        furnace::tasks,
+        census::tasks,
+        agreement::tasks,
+        expect::tasks,
+    ];
     parts.iter().flat_map(|part| part(&subject)).collect()
 }
 
@@ -61,9 +73,10 @@ fn unique<'a>(names: impl Iterator<Item = &'a str>, what: &str) -> Vec<String> {
     names.enumerate().map(name).collect()
 }
 
-/// A count with its noun: `1 triangle`, `3 triangles`.
+/// A count with its noun: `1 triangle`, `3 triangles`, `2 meshes`.
 fn count(n: usize, noun: &str) -> String {
-    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}s") }
+    let plural = if noun.ends_with("sh") { "es" } else { "s" };
+    if n == 1 { format!("1 {noun}") } else { format!("{n} {noun}{plural}") }
 }
 
 #[cfg(test)]

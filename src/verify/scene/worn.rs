@@ -1,7 +1,7 @@
 //! A compiled material at one place, as a scattering function under test.
 
 use super::places::Place;
-use crate::bsdf::Bsdf;
+use crate::bsdf::{Bsdf, MIN_ALPHA};
 use crate::desc::{self, Model, Roughness};
 use crate::material::Material;
 use crate::material::param::{self, Point};
@@ -74,6 +74,26 @@ pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: 
         }
     }
     of(&material.model, &rough, at)
+}
+
+/// The least α of a model's rough lobes at a place; smooth ones do not count: they are drawn for themselves.
+pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> Option<f64> {
+    let at = Point { uv: &place.uv, color: place.color, textures };
+    let rough = |r: &Roughness| {
+        let alpha = match r {
+            Roughness::Perceptual(p) => param::scalar(p, at).powi(2),
+            Roughness::Alpha([a, b]) => a.min(*b),
+        };
+        (alpha >= MIN_ALPHA).then_some(f64::from(alpha))
+    };
+    match model {
+        Model::Conductor { roughness, .. } | Model::Dielectric { roughness, .. } => rough(roughness),
+        Model::MetallicRoughness(m) => rough(&Roughness::Perceptual(m.roughness)),
+        Model::Mix(parts) => {
+            parts.iter().filter_map(|(_, part)| least_alpha(part, textures, place)).min_by(f64::total_cmp)
+        }
+        Model::Absorb | Model::Diffuse { .. } | Model::Mirror { .. } => None,
+    }
 }
 
 /// Light that enters is bent, so that the two sides differ and there must be a way out.
