@@ -19,6 +19,11 @@ pub struct Integrals {
     pub error: f64,
 }
 
+impl Integrals {
+    /// Of something that sends on all that arrives, where nothing was integrated: a scale for relative errors.
+    pub const WHITE: Self = Self { pdf: 1.0, albedo: [1.0; 3], error: 0.0 };
+}
+
 /// What is granted to quadrature beyond the error it sees: specular ridges that a mixture seldom draws.
 const QUADRATURE: f64 = 2.5e-4;
 

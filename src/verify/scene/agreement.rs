@@ -103,7 +103,7 @@ fn estimated(image: &Replicated, worth: f64, samples: u32) -> Estimated {
     };
     Estimated {
         mean: [0, 1, 2].map(whole),
-        tiles: [0, 1, 2].map(|channel| estimates(image, channel, worth, samples)),
+        tiles: [0, 1, 2].map(|channel| estimates(image, channel, worth, f64::from(samples))),
         ..Estimated::from(image)
     }
 }

@@ -12,7 +12,7 @@ use crate::desc;
 use crate::material::Material;
 use crate::stats::{Evidence, Moments};
 use crate::texture::Textures;
-use crate::verify::scattering::{Claims, at_cosine, density, draws, energy, reciprocity, sampled};
+use crate::verify::scattering::{Claims, Integrals, at_cosine, density, draws, energy, reciprocity, sampled};
 use crate::verify::{Curve, Exhibit, Findings, Task, Topic, Trial};
 
 const TOPIC: Topic = Topic {
@@ -182,7 +182,7 @@ impl Exam<'_> {
             let (bsdf, at) = (worn.towards(wo), format!("{name}, cos {}", side * mu));
             let trial = &trial.part(&at);
             draws(found, trial, &at, &bsdf, wo, CLAIMS.rounding);
-            let sampled = sampled(trial, &bsdf, wo, 2e-3, trial.pick(1 << 10, 1 << 15));
+            let sampled = sampled(trial, &bsdf, wo, &Integrals::WHITE, 2e-3, trial.pick(1 << 10, 1 << 15));
             if first && COUNTED.contains(&mu) {
                 let integrals = density(found, trial, &at, &bsdf, wo);
                 energy(found, &at, &CLAIMS, &integrals, &sampled);
@@ -212,7 +212,8 @@ impl Exam<'_> {
         let worn = Worn { material: white, textures, place };
         let one = |&mu: &f64| {
             let (wo, at) = (at_cosine(side * mu), format!("{name}, made white, cos {}", side * mu));
-            let sampled = sampled(&trial.part(&at), &worn.towards(wo), wo, 2e-3, trial.pick(1 << 10, 1 << 15));
+            let sampled =
+                sampled(&trial.part(&at), &worn.towards(wo), wo, &Integrals::WHITE, 2e-3, trial.pick(1 << 10, 1 << 15));
             found.checks.replicated(format!("{at}: albedo = 1"), 1.0, &sampled.all[1], CLAIMS.granted);
             albedo(&sampled.all[1], &self.place(place, side * mu))
         };
