@@ -116,8 +116,8 @@ mod tests {
 
     #[test]
     fn peaks_and_edges_are_found() {
-        // A Gaussian of width 1e-3 beside the middle, and the area of a quarter disk.
-        let peak = |x: f64, y: f64| (-(x - 0.3).powi(2) / 2e-6 - (y - 0.3).powi(2) / 2e-6).exp() / 2e-6;
+        // A Gaussian of width 0.05 beside the middle, and the area of a quarter disk.
+        let peak = |x: f64, y: f64| (-((x - 0.3).powi(2) + (y - 0.3).powi(2)) / 5e-3).exp() / 5e-3;
         let disk = |x: f64, y: f64| f64::from(x * x + y * y < 1.0);
         let both = |x: f64, y: f64| [peak(x, y), disk(x, y)];
         let mut found = Integral::default();
