@@ -105,8 +105,9 @@ impl Chart {
         let (mut sum, mut variance) = (0.0, 0.0);
         for k in 0..strata * strata {
             let corner = corner + size * DVec2::new((k % strata).into(), (k / strata).into());
-            // Probes that are not summed decide where to look closer: the sum stays unbiased.
-            let (_, smooth) = mean(corner, size, 3);
+            // Probes that are not summed decide where to look closer: the sum stays unbiased. They reach beyond the
+            // stratum, or a pole just inside its edge would be missed, mass and variance alike.
+            let (_, smooth) = mean(corner - 0.25 * size, 1.5 * size, 4);
             let n = if smooth { 2 } else { rough };
             // Two independent means tell how far theirs may be off.
             let [a, b] = [mean(corner, size, n).0, mean(corner, size, n).0];
