@@ -86,9 +86,9 @@ pub fn checks(desc: &desc::Scene, scene: &Scene, effort: Effort, trial: &Trial, 
             let rays = if k + 1 == ways.len() { effort.own } else { effort.others };
             let label = if desc.expect.len() > 1 { format!("{way} {}", i + 1) } else { way.to_string() };
             let settings = settings(size, expect, way, seed);
-            match estimate(scene, settings, expect, effort.aim, rays) {
-                Ok(renders) => {
-                    judge(&label, expect, &renders, found);
+            match estimate(scene, &settings, expect, effort.aim, rays) {
+                Ok((renders, events)) => {
+                    judge(&label, expect, &renders, &events, found);
                     census.add(&label, &renders);
                 }
                 Err(e) => found.checks.holds(format!("{label}: {e}"), false),
@@ -118,45 +118,71 @@ fn settings(size: [u32; 2], expect: &Expect, way: Way, seed: u64) -> Settings {
     }
 }
 
-/// Renders with as many samples as the file says, or else as it takes.
-fn estimate(scene: &Scene, settings: Settings, expect: &Expect, aim: f64, rays: f64) -> Result<Renders, Error> {
-    let spp = match expect.spp {
-        Some(spp) => spp.div_ceil(REPLICATES as u32).next_power_of_two(),
-        None => samples(scene, &settings, expect, aim, rays)?,
-    };
-    renders(scene, &Settings { spp, ..settings })
-}
-
-/// Samples of a pixel in a replicate, a power of two: as many as an independent pilot says that it takes to detect the
-/// aim, and for Student's law to hold. A mean of rare events is skew: with a skewness γ of the mean, p-values near 1e-8
-/// are off by the factor exp(60 γ) (Edgeworth), so the γ of a replicate must fall below 0.25, that of the mean of
-/// all below 0.03.
-fn samples(scene: &Scene, settings: &Settings, expect: &Expect, aim: f64, rays: f64) -> Result<u32, Error> {
-    const SKEWNESS: f64 = 0.25;
+/// Renders with as many samples as the file says, or else as it takes, and with the size of each quantity's events.
+fn estimate(
+    scene: &Scene,
+    settings: &Settings,
+    expect: &Expect,
+    aim: f64,
+    rays: f64,
+) -> Result<(Renders, Vec<f64>), Error> {
     const FIRST: u32 = 64;
     const PILOT: u64 = 1 << 32;
     let [x0, y0, x1, y1] = settings.crop;
     let pixels = x1.saturating_sub(x0).saturating_mul(y1.saturating_sub(y0)).max(1);
-    let spp = FIRST.div_ceil(pixels).next_power_of_two();
-    let pilot = renders(scene, &Settings { spp, seed: hash(&[settings.seed, PILOT]), ..settings.clone() })?;
-    let spp = f64::from(spp);
-
-    // Layers are parts: what the whole needs decides for the aim, any of them for the skewness.
-    let quantities = quantities(expect, &pilot).into_iter().map(|(_, exact, image)| (brightest(exact), image));
-    let bright: Vec<_> = quantities.filter(|((_, exact), _)| *exact > 0.0).collect();
-    let mut wanted = SE_PER_DETECTED * unseen(1.0, f64::from(pixels) * REPLICATES as f64) / aim;
-    for (i, ((channel, exact), image)) in bright.into_iter().enumerate() {
-        let means = image.means(image.whole(), channel);
-        let moments: Moments = means.iter().copied().collect();
-        if i == 0 {
-            let ratio = SE_PER_DETECTED * moments.standard_error() / (aim * exact);
-            wanted = wanted.max(1.2 * spp * ratio * ratio);
+    let first = FIRST.div_ceil(pixels).next_power_of_two();
+    let seed = hash(&[settings.seed, PILOT]);
+    let pilot = renders(scene, &Settings { spp: first, seed, ..settings.clone() })?;
+    let events = events(expect, &pilot);
+    let spp = match expect.spp {
+        Some(spp) => spp.div_ceil(REPLICATES as u32),
+        None => {
+            let most = rays * f64::from(first) / pilot.rays as f64;
+            let wanted = f64::from(first) * growth(expect, &pilot, &events, aim);
+            wanted.min(most).max(f64::from(FIRST.div_ceil(pixels))) as u32
         }
-        wanted = wanted.max(spp * (skewness(&means) / SKEWNESS).powi(2));
+    };
+    let spp = spp.clamp(1, 1 << 24).next_power_of_two();
+    Ok((renders(scene, &Settings { spp, ..settings.clone() })?, events))
+}
+
+/// The size of the largest event of each quantity: what one sample may be off the mean. At least the answer itself (a path
+/// that roulette ends), and at least as much as makes the largest deviation of a replicate of the pilot. Sobol points need it
+/// most: of N points nearly N p hit what has probability p, most replicates by the same number, so that their spread
+/// says nothing of the few that do not.
+fn events(expect: &Expect, pilot: &Renders) -> Vec<f64> {
+    let size = |(_, exact, image): (String, [f64; 3], &Replicated)| {
+        let (channel, exact) = brightest(exact);
+        let means = image.means(image.whole(), channel);
+        let mean = means.iter().sum::<f64>() / means.len() as f64;
+        let largest = means.iter().map(|x| (x - mean).abs()).fold(0.0, f64::max);
+        exact.max(largest * image.pixel_count() * pilot.samples)
+    };
+    quantities(expect, pilot).into_iter().map(size).collect()
+}
+
+/// How many times the pilot's samples it takes to detect the aim, and for Student's law to hold. A mean of rare events is
+/// skew: with a skewness γ of the mean, p-values near 1e-8 are off by the factor exp(60 γ) (Edgeworth), so the γ of a
+/// replicate must fall below 0.25, that of the mean of all below 0.03.
+fn growth(expect: &Expect, pilot: &Renders, events: &[f64], aim: f64) -> f64 {
+    const SKEWNESS: f64 = 0.25;
+    let mut most = 0.0f64;
+    // Layers are parts: what the whole needs decides for the aim, any of them for the skewness.
+    for (i, (_, exact, image)) in quantities(expect, pilot).into_iter().enumerate() {
+        let (channel, exact) = brightest(exact);
+        if exact == 0.0 {
+            continue;
+        }
+        let means = image.means(image.whole(), channel);
+        if i == 0 {
+            let se = means.iter().copied().collect::<Moments>().standard_error();
+            let samples = REPLICATES as f64 * image.pixel_count() * pilot.samples;
+            let by_spread = 1.2 * (SE_PER_DETECTED * se / (aim * exact)).powi(2);
+            most = by_spread + SE_PER_DETECTED * unseen(events[i], samples) / (aim * exact);
+        }
+        most = most.max((skewness(&means) / SKEWNESS).powi(2));
     }
-    let most = rays * spp / pilot.rays as f64;
-    let least = f64::from(FIRST.div_ceil(pixels));
-    Ok((wanted.min(most).max(least) as u32).clamp(1, 1 << 24).next_power_of_two())
+    most
 }
 
 /// What is expected: name, exact RGB, image.
@@ -172,10 +198,11 @@ fn brightest(rgb: [f64; 3]) -> (usize, f64) {
     (0..3).map(|c| (c, rgb[c])).fold((0, rgb[0]), |best, x| if x.1 > best.1 { x } else { best })
 }
 
-/// Compares with what is expected.
-fn judge(way: &str, expect: &Expect, renders: &Renders, found: &mut Findings) {
+/// Compares with what is expected; `events` are the largest of each quantity.
+fn judge(way: &str, expect: &Expect, renders: &Renders, events: &[f64], found: &mut Findings) {
     let granted = ROUNDING + expect.tolerance;
-    for (what, exact, image) in quantities(expect, renders) {
+    for ((what, exact, image), event) in quantities(expect, renders).into_iter().zip(events) {
+        let (brightest, value) = brightest(exact);
         let first = found.checks.checks().len();
         // Grey answers have three equal channels: one is tested.
         let grey = exact.iter().all(|&x| x == exact[0]);
@@ -187,14 +214,13 @@ fn judge(way: &str, expect: &Expect, renders: &Renders, found: &mut Findings) {
                 found.checks.holds(format!("{name} is nothing"), moments.mean() == 0.0);
             } else {
                 let [n, dof] = [moments.n() as f64 * image.pixel_count() * renders.samples, moments.n() as f64 - 1.0];
-                let se = moments.standard_error().hypot(unseen(exact[c], n));
+                let se = moments.standard_error().hypot(unseen(event * exact[c] / value, n));
                 let (exact, rounding) = (exact[c], granted * exact[c]);
                 found.checks.push(name, Evidence::Z { exact, estimate: moments.mean(), se, dof, rounding });
             }
         }
-        let (c, value) = brightest(exact);
         if value > 0.0 && image.pixel_count() > 1.0 {
-            let tiles = estimates(image, c, value, renders.samples).into_iter();
+            let tiles = estimates(image, brightest, *event, renders.samples).into_iter();
             let (p, n) = worst(tiles.map(|tile| tile.minus_exact(value).p_of_zero(granted * value)));
             found.checks.p(format!("{what} {way}: worst of {n} tiles"), p);
         }

@@ -86,7 +86,8 @@ pub fn estimates(image: &Replicated, channel: usize, least: f64, samples: f64) -
 pub fn worst(p: impl IntoIterator<Item = f64>) -> (f64, usize) {
     let (least, n) = p.into_iter().fold((1.0, 0), |(least, n), p| (f64::min(least, p), n + 1));
     // 1 − (1 − p)^n without cancellation.
-    (-(n as f64 * (-least).ln_1p()).exp_m1(), n)
+    let p = if least < 1.0 { -(n as f64 * (-least).ln_1p()).exp_m1() } else { 1.0 };
+    (p, n)
 }
 
 #[cfg(test)]
@@ -106,7 +107,7 @@ mod tests {
     fn the_worst_of_many_counts_all_of_them() {
         let (p, n) = worst([0.5, 1e-9, 0.2]);
         assert!(n == 3 && (p / 3e-9 - 1.0).abs() < 1e-6, "{p}");
-        assert_eq!(worst([]), (0.0, 0));
+        assert_eq!(worst([]), (1.0, 0));
     }
 
     #[test]
