@@ -62,14 +62,14 @@ pub(crate) struct Arguments {
 
 /// Checks, prints, writes; fails where a check does.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
-    let tasks = select(tasks(arguments)?, &arguments.only)?;
     if arguments.list {
-        return print(&list(&tasks, arguments.verbose));
+        return print(&list(&select(tasks(arguments)?, &arguments.only)?, arguments.verbose));
     }
 
     // Know before that the findings can be kept.
     let outputs = Outputs::new(arguments)?;
     interrupt::at_once();
+    let tasks = select(tasks(arguments)?, &arguments.only)?;
     let report = check(&tasks, arguments)?;
     outputs.write(&report, &about(arguments))?;
     if !outputs.take_stdout() {
