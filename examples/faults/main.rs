@@ -70,7 +70,10 @@ fn run(arguments: &Arguments) -> Result<bool> {
 
     // The tree as it is must pass: what fails there says nothing about a fault.
     let bench = Bench::new(root)?;
-    let sound = bench.outcome(None, &[], None)?;
+    let mut named: Vec<String> = patches.iter().flat_map(|patch| patch.rows.clone()).collect();
+    named.sort();
+    named.dedup();
+    let sound = bench.outcome(None, if arguments.named_rows { &named } else { &[] }, None)?;
     if let Some(first) = sound.first() {
         return Err(format!("the unmodified tree fails: {first}"));
     }
