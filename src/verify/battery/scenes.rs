@@ -72,7 +72,7 @@ fn run(name: &str, row: &str, trial: &Trial, found: &mut Findings) {
     };
     found.checks.holds("an answer is given", !desc.expect.is_empty());
     let aim = trial.pick(1.0, 0.5) * if row.starts_with('F') { 1e-3 } else { 5e-3 };
-    let effort = Effort { aim, own: trial.pick(7e5, 2.5e7), others: trial.pick(5e4, 1.5e6) };
+    let effort = Effort { aim, own: trial.pick(7e5, 1.2e7), others: trial.pick(5e4, 7e5) };
     checks(&desc, &scene, effort, trial, found);
 }
 
