@@ -96,7 +96,7 @@ fn a_healthy_scene_passes() {
 fn the_image_of_a_healthy_scene_passes() {
     let report = verify(read(&tetrahedron(CLOSED, "")), &["furnace", "census", "agreement"]);
     assert!(report.passes(), "{:#?}", report.failures().collect::<Vec<_>>());
-    assert_eq!(report.sections.len(), 4);
+    assert_eq!(report.sections.len(), 5);
     says(&report, &["samples: none is NaN"]);
     says(&report, &["Uniform (finds", "Light (finds"]);
 }

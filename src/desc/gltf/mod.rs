@@ -8,6 +8,7 @@
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
+//! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
 //! | skins, morph targets, animations | the static pose, and a note |
 //!
 //! Photometric numbers (cd, lx, cd/m²) are carried one to one into the linear RGB lanes. What the file lacks (camera,

@@ -1,6 +1,6 @@
 //! A scene in a furnace, and materials made lossless.
 
-use crate::desc::{ColorParam, Emission, Environment, Fresnel, Material, Model, Scene, framing};
+use crate::desc::{ColorParam, Emission, Environment, Fresnel, Material, Model, Scene, Shape, framing};
 use glam::Mat3;
 
 /// The same material with everything that could be coloured made white, so that it scatters all that it receives:
@@ -36,9 +36,20 @@ fn white(model: &Model) -> Option<Model> {
     })
 }
 
+/// What a scene is made before it is put into a furnace.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Dress {
+    /// Nothing.
+    Written,
+    /// Every material is [`lossless`] that can be.
+    White,
+    /// The same, and shading normals are those of the triangles.
+    Flat,
+}
+
 /// The scene in a uniform environment of radiance 1, without any other light; a camera that sees everything stands
-/// behind its own. `whitened`: with every material [`lossless`] that can be.
-pub(super) fn furnace(scene: &Scene, whitened: bool) -> Scene {
+/// behind its own.
+pub(super) fn furnace(scene: &Scene, dress: Dress) -> Scene {
     let mut scene = scene.clone();
     scene.lights.clear();
     scene.environment = Some(Environment { radiance: [1.0; 3], image: None, to_world: Mat3::IDENTITY });
@@ -46,8 +57,17 @@ pub(super) fn furnace(scene: &Scene, whitened: bool) -> Scene {
     scene.objects.iter_mut().for_each(|object| object.emission = nothing);
     for material in &mut scene.materials {
         material.emission = nothing;
-        if let Some(white) = lossless(material).filter(|_| whitened) {
+        if let Some(white) = lossless(material).filter(|_| dress != Dress::Written) {
             *material = white;
+        }
+        if dress == Dress::Flat {
+            material.normal_map = None;
+        }
+    }
+    for shape in &mut scene.shapes {
+        if let (Dress::Flat, Shape::Mesh(mesh)) = (dress, shape) {
+            mesh.normals.clear();
+            mesh.tangents.clear();
         }
     }
     let everything = framing(&scene);
