@@ -70,7 +70,7 @@ pub fn to_detect_each<const D: usize, const K: usize>(
     mut f: impl FnMut([f32; D]) -> [f64; K],
 ) -> [Moments; K] {
     const PILOT: u64 = 256;
-    let pilot = replicates_each(trial.seed ^ 0x5049_4c4f_54, PILOT, &mut f);
+    let pilot = replicates_each(trial.seed ^ 0x0050_494c_4f54, PILOT, &mut f);
     let ratio = |k: usize| SE_PER_DETECTED * pilot[k].standard_error() / (aim * exact[k].abs());
     let ratio = (0..K).map(ratio).fold(0.0, f64::max);
     // The pilot's own error of the error: a fifth more.

@@ -170,7 +170,7 @@ impl Bins {
 }
 
 /// Largest difference between a cell and its parts that is let be.
-const TOLERANCE: f64 = 1e-5;
+const TOLERANCE: f64 = 1e-6;
 /// Most cuts of a cell.
 const DEPTH: u32 = 20;
 /// Most rules on one side: where draws do not follow the density, following them would not end.

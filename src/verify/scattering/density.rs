@@ -49,7 +49,7 @@ impl Cells {
                 [pdf, f[0] * cos, f[1] * cos, f[2] * cos]
             })
         });
-        let error = QUADRATURE + 0.1 * integrals.iter().map(|(_, error)| error).sum::<f64>();
+        let error = QUADRATURE + 0.5 * integrals.iter().map(|(_, error)| error).sum::<f64>();
         Self { sides, values: integrals.map(|(values, _)| values), error }
     }
 
