@@ -64,8 +64,7 @@ impl Table1 {
     #[inline]
     pub fn sample(&self, u: f32) -> Draw1 {
         let (index, within, probability) = draw(&self.cdf, u);
-        let n = self.len() as f32;
-        Draw1 { x: to_unit((index as f32 + within) / n), pdf: probability * n, index }
+        Draw1 { x: place(index, within, self.len()), pdf: probability * self.len() as f32, index }
     }
 
     /// Chooses an entry at probability `u`: its index, its probability and what is left of `u`, uniform on [0, 1).
@@ -144,9 +143,8 @@ impl Table2 {
     pub fn sample(&self, u: [f32; 2]) -> Draw2 {
         let row = self.rows.sample(u[1]);
         let (column, within, probability) = draw(self.row(row.index), u[0]);
-        let width = self.size[0] as f32;
-        let x = to_unit((column as f32 + within) / width);
-        Draw2 { p: [x, row.x], pdf: row.pdf * probability * width, index: [column, row.index] }
+        let pdf = row.pdf * probability * self.size[0] as f32;
+        Draw2 { p: [place(column, within, self.size[0]), row.x], pdf, index: [column, row.index] }
     }
 
     /// Density at `p`; 0 outside [0, 1)².
@@ -217,4 +215,35 @@ fn invert(cdf: &[f32], x: f32) -> f32 {
 #[inline]
 fn bin(x: f32, n: usize) -> usize {
     ((x * n as f32) as usize).min(n - 1)
+}
+
+/// The place `within` interval `index` of n. What rounding carries over an edge is brought back: the neighbour's density
+/// is another, and may be 0.
+#[inline]
+fn place(index: usize, within: f32, n: usize) -> f32 {
+    let mut x = to_unit((index as f32 + within) / n as f32);
+    while bin(x, n) > index {
+        x = x.next_down();
+    }
+    while bin(x, n) < index {
+        x = x.next_up();
+    }
+    x
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::warp::ONE_MINUS_EPSILON;
+
+    #[test]
+    fn places_stay_in_their_intervals() {
+        for n in (1..2000).chain([4096, 10_001, 1 << 20, (1 << 23) - 1, 1 << 23]) {
+            for index in (0..n.min(300)).chain([n / 3, n / 2, n - 1]) {
+                for within in [0.0, f32::MIN_POSITIVE, 0.5, ONE_MINUS_EPSILON] {
+                    assert_eq!(bin(place(index, within, n), n), index, "{within} in {index} of {n}");
+                }
+            }
+        }
+    }
 }
