@@ -45,7 +45,12 @@ fn refracts(specimen: &Specimen) -> bool {
     specimen.name.contains("dielectric")
 }
 
-/// Relative error in energy that its tables make by interpolation.
+/// Relative error in energy that is granted: its tables interpolate; and where indices nearly match, the refracted lobe
+/// is so much narrower than the reflected one that quadrature loses a little of it.
 fn tables(specimen: &Specimen) -> f64 {
-    if specimen.name.contains("rough dielectric") { 3e-4 } else { 2e-4 }
+    match specimen.name.as_str() {
+        name if name.contains("1.02") => 6e-4,
+        name if name.contains("rough dielectric") => 3e-4,
+        _ => 2e-4,
+    }
 }
