@@ -64,8 +64,8 @@ impl Table1 {
     #[inline]
     pub fn sample(&self, u: f32) -> Draw1 {
         let (index, within, probability) = draw(&self.cdf, u);
-        let n = self.len() as f32;
-        Draw1 { x: to_unit((index as f32 + within) / n), pdf: probability * n, index }
+        let n = self.len();
+        Draw1 { x: place(index, within, n), pdf: probability * n as f32, index }
     }
 
     /// Chooses an entry at probability `u`: its index, its probability and what is left of `u`, uniform on [0, 1).
@@ -144,9 +144,9 @@ impl Table2 {
     pub fn sample(&self, u: [f32; 2]) -> Draw2 {
         let row = self.rows.sample(u[1]);
         let (column, within, probability) = draw(self.row(row.index), u[0]);
-        let width = self.size[0] as f32;
-        let x = to_unit((column as f32 + within) / width);
-        Draw2 { p: [x, row.x], pdf: row.pdf * probability * width, index: [column, row.index] }
+        let width = self.size[0];
+        let x = place(column, within, width);
+        Draw2 { p: [x, row.x], pdf: row.pdf * probability * width as f32, index: [column, row.index] }
     }
 
     /// Density at `p`; 0 outside [0, 1)².
@@ -203,6 +203,20 @@ fn draw(cdf: &[f32], u: f32) -> (usize, f32, f32) {
     let end = cdf[1..].partition_point(|&c| c <= u).min(cdf.len() - 2) + 1;
     let (low, probability) = (cdf[end - 1], cdf[end] - cdf[end - 1]);
     (end - 1, to_unit((u - low) / probability), probability)
+}
+
+/// The number of the unit interval that lies `within` an entry of n. Where rounding carries it over an edge it is brought
+/// back: the next entry may have no weight at all.
+#[inline]
+fn place(index: usize, within: f32, n: usize) -> f32 {
+    let mut x = to_unit((index as f32 + within) / n as f32);
+    while bin(x, n) > index {
+        x = x.next_down();
+    }
+    while bin(x, n) < index {
+        x = x.next_up();
+    }
+    x
 }
 
 /// Inverse of [`draw`] for the place `x` of the unit interval.
