@@ -36,3 +36,21 @@ proptest! {
         prop_assert!(close(two.inverse(draw.p), u, 1e-5), "{:?} {:?}", two.inverse(draw.p), u);
     }
 }
+
+#[test]
+fn rounding_carries_no_draw_into_an_entry_without_weight() {
+    for n in 1..400 {
+        let weights: Vec<f32> = (0..n).map(|i| if i % 2 == 0 { 1.0 } else { 0.0 }).collect();
+        let one = Table1::new(&weights).unwrap();
+        let rows = Table2::new(&weights, [1, n]).unwrap();
+        let columns = Table2::new(&weights, [n, 1]).unwrap();
+        // Both ends of every entry.
+        let ends = (0..n).flat_map(|i| [one.inverse(i as f32 / n as f32), one.inverse((i + 1) as f32 / n as f32)]);
+        for u in ends.flat_map(|u| [u, u.next_down().max(0.0)]) {
+            let draw = one.sample(u);
+            assert_eq!((draw.pdf > 0.0, one.pdf(draw.x)), (true, draw.pdf), "{n} {u}");
+            let (row, column) = (rows.sample([0.5, u]), columns.sample([u, 0.5]));
+            assert_eq!((rows.pdf(row.p), columns.pdf(column.p)), (row.pdf, column.pdf), "{n} {u}");
+        }
+    }
+}
