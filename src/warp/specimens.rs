@@ -55,8 +55,9 @@ pub fn specimens() -> Vec<Specimen> {
         all.push(Specimen { name: format!("cone of 1 − cos {one_minus_cos:e}"), warp: Warp::Cone(one_minus_cos) });
     }
     // Weights with gaps, over six decades.
-    let weight =
-        |i: usize| if i % 7 == 3 { 0.0 } else { (((i * 31) % 101) as f32 + 0.1).powi(1 + 2 * (i % 5 == 0) as i32) };
+    let weight = |i: usize| {
+        if i % 7 == 3 { 0.0 } else { (((i * 31) % 101) as f32 + 0.1).powi(1 + 2 * i.is_multiple_of(5) as i32) }
+    };
     let weights: Vec<f32> = (0..32 * 16).map(weight).collect();
     let tables = [
         ("table of 32", Table1::new(&weights[..32]).map(Warp::Table1)),

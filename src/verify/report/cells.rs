@@ -57,7 +57,7 @@ pub(super) fn probability(p: f64) -> String {
 pub(super) fn percent(share: f64) -> String {
     match 100.0 * share {
         p if !p.is_finite() => String::new(),
-        p if p == 0.0 => "0 %".into(),
+        0.0 => "0 %".into(),
         p if p < 1e-3 => format!("{p:.0e} %"),
         p => format!("{p:.*} %", (1.0 - p.log10().floor()).max(0.0) as usize),
     }

@@ -24,7 +24,7 @@ impl Sample {
         let mut sample = Self { z: Vec::new(), zero: 0, beyond: 0 };
         for z in report.checks().filter_map(|(_, check)| check.z()) {
             match z {
-                z if z == 0.0 => sample.zero += 1,
+                0.0 => sample.zero += 1,
                 z if z.is_finite() => sample.z.push(z),
                 _ => sample.beyond += 1,
             }
