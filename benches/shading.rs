@@ -12,7 +12,7 @@ fn lobes(c: &mut Criterion) {
     let mut group = c.benchmark_group("lobes");
     group.throughput(Throughput::Elements(1));
     for specimen in specimens() {
-        let (name, bsdf) = (&specimen.name, &specimen.bsdf);
+        let (name, bsdf) = (&specimen.name, &*specimen.bsdf);
         group.bench_function(format!("sample/{name}"), |b| {
             let mut i = 0u32;
             b.iter(|| {

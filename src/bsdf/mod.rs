@@ -34,7 +34,7 @@ pub use mixture::{Bsdf, MAX_LOBES};
 pub use rough_dielectric::{DielectricTables, RoughDielectric};
 pub use rough_reflection::{Micro, RoughReflection, RoughThin, multiple_scattering};
 pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
-pub use specimens::{Specimen, specimens};
+pub use specimens::{Lazy, Specimen, specimens};
 
 use crate::spectrum::Spectrum;
 use glam::Vec3;

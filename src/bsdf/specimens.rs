@@ -2,14 +2,18 @@
 
 use super::*;
 use glam::Vec4;
+use std::sync::LazyLock;
+
+/// A BSDF that is made when it is first looked at: its energy tables may take a second.
+pub type Lazy = LazyLock<Bsdf, Box<dyn FnOnce() -> Bsdf + Send>>;
 
 /// A BSDF with a name, and what is known of it.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct Specimen {
     /// Lobe and parameters.
     pub name: String,
     /// The thing itself.
-    pub bsdf: Bsdf,
+    pub bsdf: Lazy,
     /// It scatters everything that falls on it.
     pub lossless: bool,
 }
@@ -22,51 +26,65 @@ fn gold() -> Fresnel {
 /// All lobes × parameters.
 pub fn specimens() -> Vec<Specimen> {
     let grey = Spectrum::from_rgb([0.8, 0.5, 0.2]);
-    let mut all = Vec::new();
-    let mut add = |name: String, lossless: bool, bsdf: Bsdf| all.push(Specimen { name, bsdf, lossless });
+    let mut all = Specimens(Vec::new());
 
-    add("lambert".into(), false, Bsdf::single(Lobe::lambert(grey)));
-    add("lambert white".into(), true, Bsdf::single(Lobe::lambert(Spectrum::ONE)));
-    add("mirror".into(), true, Bsdf::single(Lobe::Mirror(Mirror { fresnel: Fresnel::ONE })));
-    add("smooth gold".into(), false, Bsdf::single(Lobe::Mirror(Mirror { fresnel: gold() })));
+    all.add("lambert", false, move || Bsdf::single(Lobe::lambert(grey)));
+    all.add("lambert white", true, || Bsdf::single(Lobe::lambert(Spectrum::ONE)));
+    all.add("mirror", true, || Bsdf::single(Lobe::Mirror(Mirror { fresnel: Fresnel::ONE })));
+    all.add("smooth gold", false, || Bsdf::single(Lobe::Mirror(Mirror { fresnel: gold() })));
     for eta in [1.5, 1.0 / 1.33] {
-        let lobe = Lobe::SmoothDielectric(SmoothDielectric { eta, tint: Spectrum::ONE });
-        add(format!("smooth dielectric {eta:.3}"), true, Bsdf::single(lobe));
+        let lobe = SmoothDielectric { eta, tint: Spectrum::ONE };
+        all.add(format!("smooth dielectric {eta:.3}"), true, move || Bsdf::single(Lobe::SmoothDielectric(lobe)));
     }
 
     for alpha in [2e-3, 0.02, 0.1, 0.4, 1.0] {
-        let micro = Micro::new([alpha; 2]);
-        let white = RoughReflection::new(micro, Fresnel::ONE);
-        add(format!("white conductor α {alpha}"), true, Bsdf::single(Lobe::RoughReflection(white)));
-        let schlick = Fresnel::schlick(Spectrum::splat(0.04), Spectrum::ONE);
-        let thin = RoughThin::new(RoughReflection::new(micro, schlick), grey);
-        add(format!("thin α {alpha}"), false, Bsdf::single(Lobe::RoughThin(thin)));
-        add(format!("coated white α {alpha}"), true, coated([alpha; 2], Spectrum::splat(0.04), Spectrum::ONE));
-        add(format!("thin sheet α {alpha}"), true, sheet(alpha));
+        all.add(format!("white conductor α {alpha}"), true, move || metal([alpha; 2], Fresnel::ONE));
+        all.add(format!("thin α {alpha}"), false, move || {
+            let schlick = Fresnel::schlick(Spectrum::splat(0.04), Spectrum::ONE);
+            let coat = RoughReflection::new(Micro::new([alpha; 2]), schlick);
+            Bsdf::single(Lobe::RoughThin(RoughThin::new(coat, grey)))
+        });
+        let coated_white = move || coated([alpha; 2], Spectrum::splat(0.04), Spectrum::ONE);
+        all.add(format!("coated white α {alpha}"), true, coated_white);
+        all.add(format!("thin sheet α {alpha}"), true, move || sheet(alpha));
     }
     for alpha in [[0.05, 0.4], [0.9, 0.2]] {
-        let micro = Micro::new(alpha);
-        let white = RoughReflection::new(micro, Fresnel::ONE);
-        add(format!("white conductor α {alpha:?}"), true, Bsdf::single(Lobe::RoughReflection(white)));
-        let gold = RoughReflection::new(micro, gold());
-        add(format!("gold α {alpha:?}"), false, Bsdf::single(Lobe::RoughReflection(gold)));
+        all.add(format!("white conductor α {alpha:?}"), true, move || metal(alpha, Fresnel::ONE));
+        all.add(format!("gold α {alpha:?}"), false, move || metal(alpha, gold()));
     }
     for (alpha, eta) in [(0.02, 1.5), (0.1, 1.5), (0.4, 1.5), (1.0, 1.5), (0.3, 1.0 / 1.5), (0.2, 1.02), (0.3, 2.4)] {
-        let lobe = RoughDielectric::new([alpha; 2], eta, Spectrum::ONE);
-        add(format!("rough dielectric α {alpha} η {eta:.3}"), true, Bsdf::single(Lobe::RoughDielectric(lobe)));
+        all.add(format!("rough dielectric α {alpha} η {eta:.3}"), true, move || glass([alpha; 2], eta));
     }
-    let lobe = RoughDielectric::new([0.1, 0.5], 1.5, Spectrum::ONE);
-    add("rough dielectric α [0.1, 0.5]".into(), true, Bsdf::single(Lobe::RoughDielectric(lobe)));
+    all.add("rough dielectric α [0.1, 0.5]", true, || glass([0.1, 0.5], 1.5));
 
-    add("coated coloured".into(), false, coated([0.3; 2], Spectrum::from_rgb([0.2, 0.1, 0.04]), grey));
-    add("smooth-coated white".into(), true, smooth_coated());
-    let mut mixture = Bsdf::new();
-    mixture.push(Lobe::lambert(Spectrum::ONE), 0.3, 0.3);
-    mixture.push(Lobe::Mirror(Mirror { fresnel: Fresnel::ONE }), 0.3, 0.2);
-    let rough = RoughReflection::new(Micro::new([0.2; 2]), Fresnel::ONE);
-    mixture.push(Lobe::RoughReflection(rough), 0.4, 0.5);
-    add("mixture".into(), true, mixture);
-    all
+    let copper = Spectrum::from_rgb([0.2, 0.1, 0.04]);
+    all.add("coated coloured", false, move || coated([0.3; 2], copper, grey));
+    all.add("smooth-coated white", true, smooth_coated);
+    all.add("mixture", true, || {
+        let mut mixture = Bsdf::new();
+        mixture.push(Lobe::lambert(Spectrum::ONE), 0.3, 0.3);
+        mixture.push(Lobe::Mirror(Mirror { fresnel: Fresnel::ONE }), 0.3, 0.2);
+        let rough = RoughReflection::new(Micro::new([0.2; 2]), Fresnel::ONE);
+        mixture.push(Lobe::RoughReflection(rough), 0.4, 0.5);
+        mixture
+    });
+    all.0
+}
+
+struct Specimens(Vec<Specimen>);
+
+impl Specimens {
+    fn add(&mut self, name: impl Into<String>, lossless: bool, make: impl FnOnce() -> Bsdf + Send + 'static) {
+        self.0.push(Specimen { name: name.into(), bsdf: LazyLock::new(Box::new(make)), lossless });
+    }
+}
+
+fn metal(alpha: [f32; 2], fresnel: Fresnel) -> Bsdf {
+    Bsdf::single(Lobe::RoughReflection(RoughReflection::new(Micro::new(alpha), fresnel)))
+}
+
+fn glass(alpha: [f32; 2], eta: f32) -> Bsdf {
+    Bsdf::single(Lobe::RoughDielectric(RoughDielectric::new(alpha, eta, Spectrum::ONE)))
 }
 
 /// A diffuse base under a GGX coat.

@@ -22,8 +22,8 @@ pub(super) fn tasks() -> Vec<Task> {
             for &mu in cosines {
                 let (wo, at) = (at_cosine(mu), format!("cos {mu}"));
                 let trial = &trial.part(&at);
-                density(found, trial, &at, &s.bsdf, wo);
-                draws(found, trial, &at, &s.bsdf, wo, ROUNDING);
+                density(found, trial, &at, &*s.bsdf, wo);
+                draws(found, trial, &at, &*s.bsdf, wo, ROUNDING);
             }
         })
     })

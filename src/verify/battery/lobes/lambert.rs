@@ -37,7 +37,7 @@ pub(super) fn tasks() -> Vec<Task> {
                         );
                         (PI * f64::from(f.f.0[lane]), 1e-6)
                     } else {
-                        let integrals = integrals(trial, &s.bsdf, wo);
+                        let integrals = integrals(trial, &*s.bsdf, wo);
                         (integrals.albedo[lane], integrals.error)
                     };
                     let granted = error / exact;
@@ -53,8 +53,8 @@ pub(super) fn tasks() -> Vec<Task> {
                     });
                     found.checks.replicated(format!("{at}, cosine"), exact, &cosine, granted);
                     if lambert {
-                        let integrals = integrals(trial, &s.bsdf, wo);
-                        let own = sampled(trial, &s.bsdf, wo, &integrals, 1e-3, most).continuous[lane];
+                        let integrals = integrals(trial, &*s.bsdf, wo);
+                        let own = sampled(trial, &*s.bsdf, wo, &integrals, 1e-3, most).continuous[lane];
                         found.checks.replicated(format!("{at}, by the BSDF"), exact, &own, granted);
                     }
                 }

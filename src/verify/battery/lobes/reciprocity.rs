@@ -17,7 +17,7 @@ pub(super) fn tasks() -> Vec<Task> {
             // Where a refracted pair needs a steep normal, f32 keeps three digits of D.
             let rounding = 3e-3;
             let claims = Claims { rounding, two_sided: true, ..Claims::default() };
-            reciprocity(found, trial, "pairs", &s.bsdf, &claims);
+            reciprocity(found, trial, "pairs", &*s.bsdf, &claims);
         })
     })
 }
