@@ -118,7 +118,7 @@ fn sum(trial: &Trial, found: &mut Findings) {
         + point(0.3, 1e-4)
         + PI * 0.2
         + polygon(&PATCH.map(|p| p.as_dvec3()), Vec3::Z.as_dvec3());
-    let estimate = to_detect(trial, exact, 3e-3, trial.pick(1 << 17, 1 << 20), |[a, b, c]: [f32; 3]| {
+    let estimate = to_detect(trial, exact, 3e-3, trial.pick(1 << 18, 1 << 20), |[a, b, c]: [f32; 3]| {
         let Some((_, s)) = lights.sample(Vec3::ZERO, a, [b, c], &Textures::default()) else { return 0.0 };
         let (Pdf::SolidAngle(p) | Pdf::Discrete(p)) = s.pdf;
         f64::from(s.le.0.x * s.wi.z.max(0.0) / p)
