@@ -44,7 +44,7 @@ struct Arguments {
     #[arg(long)]
     named_rows: bool,
     /// Write reference/faults.md
-    #[arg(long, conflicts_with_all = ["names", "part", "named_rows"])]
+    #[arg(long, conflicts_with_all = ["names", "part"])]
     write: bool,
 }
 
