@@ -96,6 +96,7 @@ pub fn checks(desc: &desc::Scene, scene: &Scene, effort: Effort, trial: &Trial, 
         }
     }
     census.report(found);
+    found.guarded = true;
 }
 
 fn settings(size: [u32; 2], expect: &Expect, way: Way, seed: u64) -> Settings {

@@ -61,12 +61,15 @@ pub struct Findings {
     pub exhibits: Vec<Exhibit>,
     /// Verdicts in words, a sentence each.
     pub words: Vec<String>,
+    /// Standard errors are widened on purpose, for rare events that no sample has met ([`super::tiles::unseen`]): the
+    /// z of these checks spread less than the normal.
+    pub guarded: bool,
 }
 
 impl Findings {
     /// Nothing found yet.
     pub fn new(name: impl Into<String>) -> Self {
-        Self { checks: Family::new(name), exhibits: Vec::new(), words: Vec::new() }
+        Self { checks: Family::new(name), exhibits: Vec::new(), words: Vec::new(), guarded: false }
     }
 }
 
@@ -183,6 +186,7 @@ pub fn run(tasks: &[Task], size: Size, seed: u64, alpha: f64, progress: &(dyn Fn
             checks: findings.checks.into_checks(),
             exhibits: findings.exhibits,
             words: findings.words,
+            guarded: findings.guarded,
             time: begin.elapsed(),
         }
     };

@@ -56,6 +56,7 @@ fn task(
             found.checks.holds(e.to_string(), false);
         }
         census.report(found);
+        found.guarded = true;
     })
 }
 

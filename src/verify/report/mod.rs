@@ -27,6 +27,8 @@ pub struct Section {
     pub exhibits: Vec<Exhibit>,
     /// Verdicts in words.
     pub words: Vec<String>,
+    /// Standard errors are widened on purpose: see [`Findings::guarded`](super::Findings::guarded).
+    pub guarded: bool,
     /// Time from the task's beginning to its end; others may have run on the same thread meanwhile.
     pub time: Duration,
 }

@@ -130,6 +130,7 @@ fn pooled<'a>(pixels: impl Iterator<Item = &'a (f64, f64)>) -> (f64, f64) {
 
 impl Image<'_> {
     fn judge(&self, view: &str, dress: Dress, found: &mut Findings) {
+        found.guarded = true;
         if self.seen.iter().all(Option::is_none) {
             found.words.push(format!("{view}: nothing is seen"));
             return;

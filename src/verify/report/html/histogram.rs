@@ -9,7 +9,7 @@ use maud::{Markup, html};
 const WIDTH: f64 = 0.25;
 const HALF: usize = 24;
 
-/// What z-values there are: those of checks that chance decides.
+/// What z-values there are: those of checks that chance decides, and whose errors are not widened on purpose.
 struct Sample {
     /// Finite and not 0: 0 is what rounding makes of equal numbers.
     z: Vec<f64>,
@@ -17,13 +17,16 @@ struct Sample {
     zero: usize,
     /// Infinite, or not a number.
     beyond: usize,
+    /// Of checks whose errors are widened.
+    guarded: usize,
 }
 
 impl Sample {
     fn new(report: &Report) -> Self {
-        let mut sample = Self { z: Vec::new(), zero: 0, beyond: 0 };
-        for z in report.checks().filter_map(|(_, check)| check.z()) {
+        let mut sample = Self { z: Vec::new(), zero: 0, beyond: 0, guarded: 0 };
+        for (section, z) in report.checks().filter_map(|(section, check)| Some((section, check.z()?))) {
             match z {
+                _ if section.guarded => sample.guarded += 1,
                 0.0 => sample.zero += 1,
                 z if z.is_finite() => sample.z.push(z),
                 _ => sample.beyond += 1,
@@ -71,6 +74,12 @@ pub(super) fn section(report: &Report) -> Markup {
                 (draw(&sample, limit))
             }
             @if sample.zero > 0 { p.faint { (count(sample.zero)) " checks differ by rounding at most and are left out." } }
+            @if sample.guarded > 0 {
+                p.faint {
+                    (count(sample.guarded)) " checks of rendered images are left out: their errors are widened for events that no "
+                    "sample has met, so that their z spread less."
+                }
+            }
             @if sample.beyond > 0 { p { (count(sample.beyond)) " checks have a z that is not finite." } }
         }
     }
@@ -109,7 +118,7 @@ mod tests {
 
     #[test]
     fn values_go_to_their_bars() {
-        let sample = Sample { z: vec![-100.0, -0.1, 0.1, 0.2, 100.0], zero: 0, beyond: 0 };
+        let sample = Sample { z: vec![-100.0, -0.1, 0.1, 0.2, 100.0], zero: 0, beyond: 0, guarded: 0 };
         let counts = sample.counts();
         assert_eq!([0, HALF - 1, HALF, 2 * HALF - 1].map(|i| counts[i]), [1, 1, 2, 1]);
         assert_eq!(counts.iter().sum::<usize>(), 5);
