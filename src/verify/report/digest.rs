@@ -41,12 +41,14 @@ pub struct Digest<'a> {
     pub worst: Option<&'a Check>,
     /// Largest of their smallest detectable relative biases: what all of them would have found.
     pub detects: Option<f64>,
+    /// Smallest of them: what the best check would have found.
+    pub finest: Option<f64>,
 }
 
 impl<'a> Digest<'a> {
     /// Of checks that each pass with p ≥ `share`.
     pub fn new(checks: impl IntoIterator<Item = &'a Check>, share: f64) -> Self {
-        let mut digest = Self { checks: 0, failures: Vec::new(), worst: None, detects: None };
+        let mut digest = Self { checks: 0, failures: Vec::new(), worst: None, detects: None, finest: None };
         let mut least = (f64::INFINITY, f64::INFINITY);
         for check in checks {
             digest.checks += 1;
@@ -59,6 +61,7 @@ impl<'a> Digest<'a> {
             }
             if let Some(bias) = check.detects(share).filter(|bias| bias.is_finite()) {
                 digest.detects = Some(digest.detects.map_or(bias, |most| most.max(bias)));
+                digest.finest = Some(digest.finest.map_or(bias, |least| least.min(bias)));
             }
         }
         digest

@@ -119,7 +119,7 @@ fn overview(groups: &[Group], share: f64) -> Markup {
                 table {
                     thead { tr {
                         th { "" } th { "topic" } th.n { "subjects" } th.n { "checks" } th.n { "fail" } th.n { "worst" }
-                        th.n { "detects" }
+                        th.n title="of the best check and of the worst" { "detects" }
                     } }
                     tbody { @for (i, group) in groups.iter().enumerate() { (overview_row(i, group, share)) } }
                 }
@@ -138,7 +138,7 @@ fn overview_row(i: usize, group: &Group, share: f64) -> Markup {
             td.n { (count(digest.checks)) }
             td.n { (count(digest.failures.len())) }
             td.n { (digest.worst.map_or(String::new(), |check| Cells::new(check, share).statistic)) }
-            td.n { (digest.detects.map_or(String::new(), percent)) }
+            td.n { @if let (Some(best), Some(worst)) = (digest.finest, digest.detects) { (percent(best)) " … " (percent(worst)) } }
         }
     }
 }
