@@ -43,6 +43,9 @@ struct Arguments {
     /// Run only the rows that a patch names, for a quick look
     #[arg(long)]
     named_rows: bool,
+    /// Take what was found for a fault in earlier trees, where this one was not asked
+    #[arg(long)]
+    stale: bool,
     /// Write reference/faults.md
     #[arg(long, conflicts_with_all = ["names", "part"])]
     write: bool,
@@ -69,7 +72,7 @@ fn run(arguments: &Arguments) -> Result<bool> {
     }
 
     // The tree as it is must pass: what fails there says nothing about a fault.
-    let bench = Bench::new(root)?;
+    let bench = Bench::new(root, arguments.stale)?;
     let mut named: Vec<String> = patches.iter().flat_map(|patch| patch.rows.clone()).collect();
     named.sort();
     named.dedup();
@@ -148,22 +151,39 @@ struct Bench {
     tree: Tree,
     workshop: Workshop,
     found: PathBuf,
+    /// Findings of earlier trees count for faults.
+    stale: bool,
 }
 
 impl Bench {
-    fn new(root: &Path) -> Result<Self> {
+    fn new(root: &Path, stale: bool) -> Result<Self> {
         let folder = root.join("target/faults");
         let found = folder.join("found");
         fs::create_dir_all(&found).map_err(|e| format!("{}: {e}", found.display()))?;
         let tree = Tree::new(root, folder.join("tree"))?;
-        Ok(Self { tree, workshop: Workshop { build: folder.join("build"), scratch: folder }, found })
+        Ok(Self { tree, workshop: Workshop { build: folder.join("build"), scratch: folder }, found, stale })
+    }
+
+    /// What some earlier tree with this fault was found to do in these rows.
+    fn earlier(&self, name: &str, rows: &str) -> Result<Option<PathBuf>> {
+        let files = fs::read_dir(&self.found).map_err(|e| format!("{}: {e}", self.found.display()))?;
+        let matches = |path: &PathBuf| {
+            let file = path.file_name().unwrap_or_default().to_string_lossy();
+            let hash =
+                file.strip_prefix(&format!("{name}-")).and_then(|rest| rest.strip_suffix(&format!("{rows}.json")));
+            hash.is_some_and(|hash| hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()))
+        };
+        Ok(files.filter_map(|entry| Some(entry.ok()?.path())).find(matches))
     }
 
     /// What the battery says to a fault, or to none; from an earlier run where it met the same tree.
     fn outcome(&self, patch: Option<&Patch>, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
         let name = patch.map_or("unmodified", |patch| &patch.name);
         let key = format!("{name}-{:016x}{}.json", self.tree.hash(patch)?, rows.concat());
-        let file = self.found.join(key);
+        let mut file = self.found.join(key);
+        if self.stale && patch.is_some() && !file.exists() {
+            file = self.earlier(name, &rows.concat())?.unwrap_or(file);
+        }
         if let Some(found) = fs::read(&file).ok().and_then(|json| serde_json::from_slice(&json).ok()) {
             return Ok(found);
         }
