@@ -43,6 +43,10 @@ fn the_battery_passes_and_has_the_power_that_it_claims() {
     }
     for (row, detected) in power(&report) {
         println!("{row}: finds a bias of {:.3} %", 100.0 * detected);
+        // Densities are judged by χ², which knows no relative bias; what estimates they have stand beside it.
+        if row.starts_with('D') {
+            continue;
+        }
         let aim = if row.starts_with(['A', 'F']) { POWER_OF_ENERGY } else { POWER };
         assert!(detected <= aim, "{row} finds no bias below {:.3} %", 100.0 * detected);
     }
