@@ -5,6 +5,7 @@
 mod patch;
 
 use patch::{Patch, load};
+use radianza::verify::battery;
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -30,6 +31,16 @@ fn every_patch_applies_and_changes_the_code() {
             assert_ne!(planted, text, "{}", patch.name);
         }
     }
+}
+
+#[test]
+fn every_row_is_named_by_a_patch_and_every_named_row_is_there() {
+    let rows: BTreeSet<String> = battery::tasks().iter().map(|task| task.topic.id.to_owned()).collect();
+    let named: BTreeSet<String> = patches().into_iter().flat_map(|patch| patch.rows).collect();
+    assert_eq!(
+        named, rows,
+        "a row that is shown to notice no fault, or a fault that is promised to a row that is none"
+    );
 }
 
 #[test]

@@ -103,7 +103,7 @@ fn run(arguments: &Arguments) -> Result<bool> {
 
 /// Says what is wrong with the battery.
 fn verdict(matrix: &Matrix, arguments: &Arguments) -> bool {
-    let complete = arguments.names.is_empty() && arguments.part.is_none() && !arguments.named_rows;
+    let complete = arguments.names.is_empty() && arguments.part.is_none();
     let (uncaught, unnoticed) = (matrix.uncaught(), matrix.unnoticed());
     let idle = if complete { matrix.idle() } else { Vec::new() };
     if !uncaught.is_empty() {
