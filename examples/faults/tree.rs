@@ -7,7 +7,7 @@ use std::hash::{DefaultHasher, Hash, Hasher};
 use std::path::{Path, PathBuf};
 
 /// Top-level entries that no program is built from.
-const LEFT_OUT: [&str; 5] = ["target", "out", "reference", "examples", "tests"];
+const LEFT_OUT: [&str; 6] = ["target", "out", "reference", "examples", "tests", "README.md"];
 
 /// Files by their path from the root.
 type Files = BTreeMap<PathBuf, Vec<u8>>;
