@@ -36,6 +36,17 @@ pub(crate) struct Row {
 }
 
 impl Outcome {
+    /// What was found of the battery, and what of some of its rows again, with more work: the latter counts there.
+    pub(crate) fn with(mut self, again: Self) -> Self {
+        for row in again.rows {
+            match self.rows.iter_mut().find(|known| known.id == row.id) {
+                Some(known) => *known = row,
+                None => self.rows.push(row),
+            }
+        }
+        Self { ended: self.ended.or(again.ended), seconds: self.seconds + again.seconds, ..self }
+    }
+
     /// The rows in which a check failed.
     pub(crate) fn failed(&self) -> impl Iterator<Item = &Row> {
         self.rows.iter().filter(|row| row.failed > 0)
@@ -102,14 +113,17 @@ impl Workshop {
         }
     }
 
-    /// Runs the battery of the program built last, or the given rows of it.
-    pub(crate) fn run(&self, tree: &Path, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
+    /// Runs the battery of the program built last, or the given rows of it; an eighth of it where that is `quick`.
+    pub(crate) fn run(&self, tree: &Path, rows: &[String], quick: bool, limit: Option<Duration>) -> Result<Outcome> {
         let [findings, complaints] = ["findings.json", "stderr.txt"].map(|name| self.scratch.join(name));
         let _ = fs::remove_file(&findings);
         let stderr = File::create(&complaints).map_err(|e| format!("{}: {e}", complaints.display()))?;
         let program = self.build.join("faults").join(format!("radianza{}", std::env::consts::EXE_SUFFIX));
         let mut command = Command::new(&program);
         command.args(["verify", "--quiet", "--json"]).arg(&findings).current_dir(tree);
+        if quick {
+            command.arg("--quick");
+        }
         rows.iter().for_each(|row| {
             command.arg("--only").arg(format!("{row}/"));
         });

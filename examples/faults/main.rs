@@ -1,13 +1,15 @@
 //! Plants faults, one at a time, and looks whether the battery notices: a test that cannot fail shows nothing.
 //!
 //! ```text
-//! cargo run --release --example faults                     # all of reference/faults/, the whole battery for each
+//! cargo run --release --example faults                     # all of reference/faults/ against every row
 //! cargo run --release --example faults -- mis-weights      # those named
+//! cargo run --release --example faults -- --named-rows     # each against the rows that its patch names, which is quicker
 //! cargo run --release --example faults -- --part 3/30      # every 30th, from the third
 //! cargo run --release --example faults -- --write          # all, and reference/faults.md anew
 //! ```
 //!
-//! Exit code 1 where a fault is caught by nothing or a row that its patch names does not notice it, where a patch does
+//! The rows that a patch names run in their default size, the others as `verify --quick` has them, at an eighth of the
+//! work (with `--whole` they too run in full). Exit code 1 where a fault is caught by nothing or a row that its patch names does not notice it, where a patch does
 //! not apply or build, where the unmodified tree fails, and, when all were planted, where a row notices none. What was
 //! found for a tree is kept in `target/faults/found`, so that an interrupted run goes on.
 
@@ -41,8 +43,11 @@ struct Arguments {
     #[arg(long, value_name = "K/N", value_parser = part, conflicts_with = "names")]
     part: Option<(usize, usize)>,
     /// Run only the rows that a patch names, for a quick look
-    #[arg(long)]
+    #[arg(long, conflicts_with = "whole")]
     named_rows: bool,
+    /// Run every row in its default size, not only those that a patch names
+    #[arg(long)]
+    whole: bool,
     /// Take what was found for a fault in earlier trees, where this one was not asked
     #[arg(long)]
     stale: bool,
@@ -72,11 +77,12 @@ fn run(arguments: &Arguments) -> Result<bool> {
     }
 
     // The tree as it is must pass: what fails there says nothing about a fault.
+    let extent = Extent::of(arguments);
     let bench = Bench::new(root, arguments.stale)?;
     let mut named: Vec<String> = patches.iter().flat_map(|patch| patch.rows.clone()).collect();
     named.sort();
     named.dedup();
-    let sound = bench.outcome(None, if arguments.named_rows { &named } else { &[] }, None)?;
+    let sound = bench.outcome(None, &named, extent, None)?;
     if let Some(first) = sound.first() {
         return Err(format!("the unmodified tree fails: {first}"));
     }
@@ -85,8 +91,8 @@ fn run(arguments: &Arguments) -> Result<bool> {
     let limit = Duration::from_secs_f64(PATIENCE * sound.seconds.max(10.0));
     let mut faults = Vec::new();
     for (i, patch) in patches.iter().enumerate() {
-        let rows = if arguments.named_rows { &patch.rows[..] } else { &[] };
-        let outcome = bench.outcome(Some(patch), rows, Some(limit)).map_err(|e| format!("{}: {e}", patch.name))?;
+        let outcome = bench.outcome(Some(patch), &patch.rows, extent, Some(limit));
+        let outcome = outcome.map_err(|e| format!("{}: {e}", patch.name))?;
         let first = outcome.first().unwrap_or("NOTHING NOTICES");
         println!("[{}/{}] {}: {first} ({:.0} s)", i + 1, patches.len(), patch.name, outcome.seconds);
         faults.push((patch, outcome));
@@ -146,6 +152,36 @@ fn part(text: &str) -> Result<(usize, usize)> {
     }
 }
 
+/// Which rows are run.
+#[derive(Clone, Copy)]
+enum Extent {
+    /// Those that patches name.
+    Named,
+    /// These in full, and a quick look at all others.
+    Quick,
+    /// All of them in full.
+    Whole,
+}
+
+impl Extent {
+    fn of(arguments: &Arguments) -> Self {
+        match arguments {
+            Arguments { named_rows: true, .. } => Self::Named,
+            Arguments { whole: true, .. } => Self::Whole,
+            _ => Self::Quick,
+        }
+    }
+
+    /// What is found with it is kept under this name.
+    fn key(self, named: &[String]) -> String {
+        match self {
+            Self::Named => named.concat(),
+            Self::Quick => format!("{}-quick", named.concat()),
+            Self::Whole => String::new(),
+        }
+    }
+}
+
 /// Where faults are planted and their trees built and run.
 struct Bench {
     tree: Tree,
@@ -177,12 +213,17 @@ impl Bench {
     }
 
     /// What the battery says to a fault, or to none; from an earlier run where it met the same tree.
-    fn outcome(&self, patch: Option<&Patch>, rows: &[String], limit: Option<Duration>) -> Result<Outcome> {
-        let name = patch.map_or("unmodified", |patch| &patch.name);
-        let key = format!("{name}-{:016x}{}.json", self.tree.hash(patch)?, rows.concat());
-        let mut file = self.found.join(key);
+    fn outcome(
+        &self,
+        patch: Option<&Patch>,
+        named: &[String],
+        extent: Extent,
+        limit: Option<Duration>,
+    ) -> Result<Outcome> {
+        let (name, key) = (patch.map_or("unmodified", |patch| &patch.name), extent.key(named));
+        let mut file = self.found.join(format!("{name}-{:016x}{key}.json", self.tree.hash(patch)?));
         if self.stale && patch.is_some() && !file.exists() {
-            file = self.earlier(name, &rows.concat())?.unwrap_or(file);
+            file = self.earlier(name, &key)?.unwrap_or(file);
         }
         if let Some(found) = fs::read(&file).ok().and_then(|json| serde_json::from_slice(&json).ok()) {
             return Ok(found);
@@ -191,7 +232,15 @@ impl Bench {
             self.tree.plant(patch)?;
         }
         let built = self.workshop.build(&self.tree.copy);
-        let outcome = built.and_then(|()| self.workshop.run(&self.tree.copy, rows, limit));
+        let run = |rows: &[String], quick: bool| self.workshop.run(&self.tree.copy, rows, quick, limit);
+        let outcome = built.and_then(|()| match extent {
+            Extent::Named => run(named, false),
+            Extent::Whole => run(&[], false),
+            Extent::Quick => {
+                let quick = run(&[], true)?;
+                if quick.ended.is_some() { Ok(quick) } else { Ok(quick.with(run(named, false)?)) }
+            }
+        });
         self.tree.restore()?;
         let outcome = outcome?;
         let json = serde_json::to_vec(&outcome).map_err(|e| e.to_string())?;

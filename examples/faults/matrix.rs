@@ -10,8 +10,8 @@ const HEAD: &str = "# Planted faults
 Each is a small patch in `reference/faults/`. One at a time is applied to a copy of the tree, the program is built and
 verifies itself; a fault counts as caught by the rows in which a check fails. The unmodified tree passes all of them.
 Written by `cargo run --release --example faults -- --write`, which fails where a fault is caught by nothing, where a row
-that a patch names does not notice it, or where a row notices none. ● has noticed, ○ was asked and has not, and where
-nothing stands the row was not run: with `--named-rows` each fault meets the rows that its patch names, which is quicker.
+that a patch names does not notice it, or where a row notices none. ● has noticed, ○ has not. The rows that a patch names
+ran in their default size, all others at an eighth of it (`verify --quick`), so that a ○ there may be a small effect.
 ";
 
 /// The faults that were planted, and what the battery said to each.

@@ -20,6 +20,8 @@ pub struct Topic {
 /// How much work a run is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Size {
+    /// An eighth of the default: a look while working. Large faults are found, small biases are not.
+    Quick,
     /// About a minute on two cores.
     #[default]
     Default,
@@ -37,18 +39,69 @@ pub struct Trial {
     pub size: Size,
 }
 
+impl Size {
+    /// Its name in reports, and as a flag of the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Quick => "quick",
+            Self::Default => "default",
+            Self::Thorough => "thorough",
+        }
+    }
+}
+
 impl Trial {
     /// The same with a seed for a part of the task, so that its parts share no numbers.
     pub fn part(&self, name: &str) -> Self {
         Self { seed: stream(self.seed, name), ..*self }
     }
 
-    /// The one or the other, by size.
+    /// The one or the other, by size; what a quick run looks at is what the default one does.
     pub fn pick<T>(&self, default: T, thorough: T) -> T {
         match self.size {
-            Size::Default => default,
+            Size::Quick | Size::Default => default,
             Size::Thorough => thorough,
         }
+    }
+
+    /// A number of samples, rays, points, by size: an eighth in a quick run, but at least one.
+    pub fn work<T: Amount>(&self, default: T, thorough: T) -> T {
+        match self.size {
+            Size::Quick => default.eighth(),
+            _ => self.pick(default, thorough),
+        }
+    }
+
+    /// A bias to detect, by size: what an eighth of the samples finds, √8 times as large, in a quick run.
+    pub fn aim(&self, default: f64, thorough: f64) -> f64 {
+        match self.size {
+            Size::Quick => 8f64.sqrt() * default,
+            _ => self.pick(default, thorough),
+        }
+    }
+}
+
+/// How much of something is done.
+pub trait Amount: Copy {
+    /// An eighth of it, at least one where it is counted.
+    fn eighth(self) -> Self;
+}
+
+macro_rules! counted {
+    ($($count:ty),*) => {
+        $(impl Amount for $count {
+            fn eighth(self) -> Self {
+                (self / 8).max(1)
+            }
+        })*
+    };
+}
+
+counted!(i32, u32, u64, usize);
+
+impl Amount for f64 {
+    fn eighth(self) -> Self {
+        self / 8.0
     }
 }
 

@@ -138,9 +138,11 @@ fn a_scene_is_checked_in_place_of_the_program() {
     let (code, list, _) = radianza(folder.path(), &["verify", "tri.gltf", "--list"]);
     assert_eq!(code, 0);
     assert!(list.contains("data/") && !list.contains("L1/"), "{list}");
-    let (code, out, err) = radianza(folder.path(), &["verify", "tri.gltf", "--only", "data/", "--html", "a.html"]);
+    let quick = ["verify", "tri.gltf", "--only", "data/", "--html", "a.html", "--quick"];
+    let (code, out, err) = radianza(folder.path(), &quick);
     assert_eq!(code, 0, "{out}{err}");
-    assert!(out.contains("PASSED") && read(folder.path(), "a.html").contains("tri.gltf"), "{out}");
+    assert!(out.contains("PASSED; size quick") && read(folder.path(), "a.html").contains("tri.gltf"), "{out}");
+    assert_eq!(radianza(folder.path(), &["verify", "tri.gltf", "--quick", "--thorough"]).0, 2);
     assert_eq!(radianza(folder.path(), &["verify", "none.glb"]).0, 4);
     assert_eq!(radianza(folder.path(), &["verify", "bad.toml"]).0, 3);
 }

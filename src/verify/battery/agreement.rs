@@ -94,7 +94,7 @@ pub(super) fn tasks() -> Vec<Task> {
 /// their differences vary little. Then the samplers against each other.
 fn run(scene: &Scene, case: &Case, trial: &Trial, census: &mut Census, found: &mut Findings) -> Result<(), Error> {
     let mut own: Vec<Replicated> = Vec::new();
-    for (sampler, rays) in SAMPLERS.into_iter().zip([trial.pick(3e5, 6e6), trial.pick(7e5, 1.2e7)]) {
+    for (sampler, rays) in SAMPLERS.into_iter().zip([trial.work(3e5, 6e6), trial.work(7e5, 1.2e7)]) {
         let way = |strategy| Way { integrator: Integrator::Path, strategy, sampler };
         let settings = |strategy| Settings { crop: case.crop, ..small(way(strategy), trial.seed) };
         let spp = samples(scene, &settings(Strategy::Mis), rays)?;

@@ -85,7 +85,7 @@ fn round_trip(camera: &Camera, lens: Option<Lens>, trial: &Trial, found: &mut Fi
     let mut rng = Pcg64Mcg::seed_from_u64(trial.seed);
     let (mut worst, mut unit) = (0f32, 0f32);
     let eye = camera.ray(vec2(20.0, 15.0), [0.5; 2]).o;
-    for _ in 0..trial.pick(20_000, 400_000) {
+    for _ in 0..trial.work(20_000, 400_000) {
         let film = vec2(0.5 + 39.0 * rng.random::<f32>(), 0.5 + 29.0 * rng.random::<f32>());
         let ray = camera.ray(film, [rng.random(), rng.random()]);
         // Where there is a lens, rays of a film point agree in the plane of focus only.
@@ -131,7 +131,7 @@ fn pixels(camera: &Camera, fov: Fov, trial: &Trial, found: &mut Findings) {
     let cell = [2.0 * a / f64::from(SIZE[0]), 2.0 * b / f64::from(SIZE[1])];
     for (k, [x, y]) in [[0, 0], [20, 15], [39, 3], [5, 29]].into_iter().enumerate() {
         let power = |exponent| {
-            replicates(trial.seed.wrapping_add(k as u64), trial.pick(256, 4096), |u| {
+            replicates(trial.seed.wrapping_add(k as u64), trial.work(256, 4096), |u| {
                 let film = vec2(x as f32, y as f32) + Vec2::from(u);
                 let cos = f64::from(camera.ray(film, [0.5; 2]).d.dot(camera.axis()));
                 cos.powi(exponent) * cell[0] * cell[1]
@@ -171,7 +171,7 @@ fn sphere(camera: &Camera, trial: &Trial, found: &mut Findings) {
     found.checks.bound("Ω = Δλ (cos θ₀ − cos θ₁)", rows.fold(0.0, f64::max), 1e-12);
     // Directions uniform on the sphere land in a pixel with probability Ω/4π.
     let mut rng = Pcg64Mcg::seed_from_u64(trial.seed ^ 2);
-    let n = trial.pick(400_000, 6_000_000);
+    let n = trial.work(400_000, 6_000_000);
     let eye = camera.ray(Vec2::ZERO, [0.5; 2]).o;
     let mut observed = vec![0.0; (SIZE[0] * SIZE[1]) as usize];
     let mut lost = 0;
@@ -208,7 +208,7 @@ fn aperture(camera: &Camera, lens: Lens, trial: &Trial, found: &mut Findings) {
     let chief = camera.ray(film, [0.5; 2]);
     let focus = chief.o + chief.d * (lens.focus_distance / chief.d.dot(camera.axis()));
     let (s, t) = camera.axis().any_orthonormal_pair();
-    let n = trial.pick(200_000, 3_000_000);
+    let n = trial.work(200_000, 3_000_000);
     let (mut apart, mut off_plane, mut widest) = (0f32, 0f32, 0f32);
     let mut observed = vec![0.0; RINGS * SECTORS];
     for _ in 0..n {

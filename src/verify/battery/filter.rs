@@ -69,7 +69,7 @@ fn profile(filter: Filter, found: &mut Findings) {
 /// χ² over bins of the support.
 fn shape(filter: Filter, trial: &Trial, found: &mut Findings) {
     let mut rng = Pcg64Mcg::seed_from_u64(trial.seed);
-    let n = trial.pick(1_000_000, 15_000_000);
+    let n = trial.work(1_000_000, 15_000_000);
     let radius = filter_radius(filter);
     let mut observed = vec![0.0; SIDE * SIDE];
     let mut inside = true;
@@ -96,7 +96,7 @@ fn shape(filter: Filter, trial: &Trial, found: &mut Findings) {
 }
 
 fn second_moments(filter: Filter, trial: &Trial, found: &mut Findings) {
-    let points = trial.pick(1 << 10, 1 << 14);
+    let points = trial.work(1 << 10, 1 << 14);
     let mean = |k: u64, f: fn(Vec2) -> f64| -> Moments {
         replicates(trial.seed.wrapping_add(k), points, |u| f(filter_offset(filter, u)))
     };

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod camera;
+mod error;
 mod filter;
 mod light;
 mod lobes;
@@ -17,6 +18,7 @@ pub fn tasks() -> Vec<Task> {
     let rows: &[fn() -> Vec<Task>] = &[
         agreement::tasks,
         camera::tasks,
+        error::tasks,
         filter::tasks,
         light::tasks,
         lobes::tasks,

@@ -54,7 +54,7 @@ fn chi2_square(side: usize, points: impl Iterator<Item = [f32; 2]>) -> f64 {
 /// The same point of a replicate over seeds, pixels, replicates and dimensions in turn.
 fn uniformity(s: &Specimen, trial: &Trial, found: &mut Findings) {
     let (s, seed, size) = (*s, trial.seed, u64::from(s.replicate));
-    let n: u32 = trial.pick(1 << 15, 1 << 19);
+    let n: u32 = trial.work(1 << 15, 1 << 19);
     for (what, point) in [("first", 0), ("second", 1), ("last", size - 1)] {
         type Walk = (&'static str, Box<dyn Fn(u32) -> [f32; 2]>);
         let over: [Walk; 6] = [
@@ -119,14 +119,14 @@ fn pairs(s: &Specimen, trial: &Trial, found: &mut Findings) {
         };
         found
             .checks
-            .p(format!("χ² of x with {}", place.name), chi2_square(16, (0..trial.pick(1 << 15, 1 << 19)).map(point)));
+            .p(format!("χ² of x with {}", place.name), chi2_square(16, (0..trial.work(1 << 15, 1 << 19)).map(point)));
     }
 }
 
 /// Products that an integrand over two places is made of: of the numbers over a replicate, and of the replicate's means.
 fn correlations(s: &Specimen, trial: &Trial, found: &mut Findings) {
     let size = u64::from(s.replicate);
-    let replicates = trial.pick(1 << 11, 1 << 14).max(trial.pick(1 << 17, 1 << 20) / size);
+    let replicates = trial.work(1 << 11, 1 << 14).max(trial.work(1 << 17, 1 << 20) / size);
     for place in &PLACES {
         let (mut products, mut means) = (Moments::new(), Moments::new());
         for r in 0..replicates {
@@ -150,7 +150,7 @@ fn correlations(s: &Specimen, trial: &Trial, found: &mut Findings) {
 /// Equal numbers within one sample: of n(n − 1)/2 pairs one in 2²⁴ by chance, a Poisson count.
 fn repetitions(s: &Specimen, trial: &Trial, found: &mut Findings) {
     const NUMBERS: u32 = 64;
-    let samples = trial.pick(2048, 1 << 15);
+    let samples = trial.work(2048, 1 << 15);
     let mut equal = 0;
     for k in 0..samples {
         let mut sampler = s.at(trial.seed, [k % 64, k / 64], u64::from(k * 5), 0);
@@ -201,7 +201,7 @@ fn means(s: &Specimen, seed: u64, replicates: u64, f: fn([f32; 4]) -> f64) -> Mo
 /// Unbiased over randomisations.
 fn integrals(s: &Specimen, trial: &Trial, found: &mut Findings) {
     for (name, exact, f) in INTEGRANDS {
-        let replicates = trial.pick(1 << 18, 1 << 22) / u64::from(s.replicate);
+        let replicates = trial.work(1 << 18, 1 << 22) / u64::from(s.replicate);
         // Numbers are cell corners of a grid of 2⁻²⁴: means are low by half a step in each of four dimensions.
         found.checks.replicated(name, exact, &means(s, trial.seed, replicates, f), 4e-7);
     }
@@ -221,7 +221,7 @@ fn stratification(s: &Specimen, trial: &Trial, found: &mut Findings) {
             1.0 / (12.0 * n.powi(3))
         }
     };
-    let trials = trial.pick(4000, 64_000);
+    let trials = trial.work(4000, 64_000);
     for axis in 0..2 {
         let square = |r: u64| {
             let x = |i: u32| {

@@ -33,7 +33,7 @@ pub(super) fn tasks() -> Vec<Task> {
 
 fn shape(warp: &Warp, trial: &Trial, found: &mut Findings) {
     let mut rng = Pcg64Mcg::seed_from_u64(trial.seed);
-    let n = trial.pick(500_000, 8_000_000);
+    let n = trial.work(500_000, 8_000_000);
     let mut observed = vec![0.0; SIDE * SIDE];
     let mut outside = 0f64;
     for _ in 0..n {
@@ -74,7 +74,7 @@ fn round_trip(warp: &Warp, trial: &Trial, found: &mut Findings) {
         let back = warp.round_trip(u);
         (back[0] - u[0]).abs().max((back[1] - u[1]).abs())
     };
-    let worst = (0..trial.pick(50_000, 1_000_000)).map(|_| off([rng.random(), rng.random()])).fold(0.0, f32::max);
+    let worst = (0..trial.work(50_000, 1_000_000)).map(|_| off([rng.random(), rng.random()])).fold(0.0, f32::max);
     // At the sphere's lower pole a direction's last digit is worth √ε of u; a table's entry of small probability spreads
     // its share of u over more digits than the place has.
     found.checks.bound("inverse(map(u)) = u", worst.into(), 1e-5);

@@ -5,7 +5,6 @@
 
 use super::{About, Digest, Report, SOFTWARE};
 use crate::stats::{Check, Evidence};
-use crate::verify::Size;
 use serde::{Deserialize, Serialize};
 
 /// All of it.
@@ -17,7 +16,7 @@ pub struct Document {
     pub about: String,
     /// The command that does it again.
     pub command: String,
-    /// `default` or `thorough`.
+    /// `quick`, `default` or `thorough`.
     pub size: String,
     /// Seed of all of it.
     pub seed: u64,
@@ -116,10 +115,7 @@ impl Document {
             software: SOFTWARE.into(),
             about: about.what.clone(),
             command: about.command.clone(),
-            size: match report.size {
-                Size::Default => "default".into(),
-                Size::Thorough => "thorough".into(),
-            },
+            size: report.size.name().into(),
             seed: report.seed,
             alpha: report.alpha,
             p_limit: share,

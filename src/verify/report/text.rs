@@ -3,7 +3,6 @@
 use super::cells::{percent, probability};
 use super::{Cells, Digest, Group, Report, Section, count, one_line};
 use crate::stats::Check;
-use crate::verify::Size;
 use anstyle::{AnsiColor, Style};
 use std::fmt::{self, Write};
 use unicode_width::{UnicodeWidthChar, UnicodeWidthStr};
@@ -147,10 +146,7 @@ fn summary(out: &mut String, report: &Report, share: f64) -> fmt::Result {
             }
         }
     }
-    let size = match report.size {
-        Size::Default => "default",
-        Size::Thorough => "thorough",
-    };
+    let size = report.size.name();
     writeln!(
         out,
         "\n{} checks of {} subjects share α = {}: |z| ≤ {:.2}, p ≥ {share:.1e} each",

@@ -79,7 +79,7 @@ pub fn density(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scatter
     let (sides, integrals) = (&cells.sides, cells.integrals());
 
     // Count the draws; deltas, failures and whatever lies in the surface are the others.
-    let n: u64 = trial.pick(60_000, 1_000_000);
+    let n: u64 = trial.work(60_000, 1_000_000);
     let mut observed = sides.each_ref().map(|bins| vec![0.0; bins.len()]);
     let mut others = 0.0;
     for i in 0..n {
@@ -92,7 +92,7 @@ pub fn density(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scatter
 
     // ∫ pdf against the share of the unit cube that leads to deltas or nowhere.
     let n = n as f64;
-    let [lost] = to_detect_each(trial, [1.0], 4e-3, trial.pick(1 << 11, 1 << 14), |u| {
+    let [lost] = to_detect_each(trial, [1.0], 4e-3, trial.work(1 << 11, 1 << 14), |u| {
         let continuous = s.sample(wo, u).is_some_and(|draw| matches!(draw.density, Density::SolidAngle(_)));
         [f64::from(!continuous)]
     });

@@ -44,7 +44,7 @@ fn difference(a: Rgb, b: Rgb) -> f64 {
 pub fn draws(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scattering, wo: DVec3, rounding: f64) {
     let (mut pdf_off, mut weight_off) = (0f64, 0f64);
     let (mut bad, mut unreached, mut continuous) = (0, 0, 0);
-    for i in 0..trial.pick(LOOKS, 10 * LOOKS) {
+    for i in 0..trial.work(LOOKS, 10 * LOOKS) {
         let mut u = stream(trial, 2, i);
         if let Some(draw) = s.sample(wo, numbers(&mut u)) {
             let unit = (draw.wi.length() - 1.0).abs() < 1e-4;
@@ -87,7 +87,7 @@ pub fn reciprocity(found: &mut Findings, trial: &Trial, name: &str, s: &impl Sca
         worst = worst.max(difference(ab, ba));
         compared += u32::from(largest(ab).max(largest(ba)) > 0.0);
     };
-    for i in 0..trial.pick(LOOKS, 10 * LOOKS) {
+    for i in 0..trial.work(LOOKS, 10 * LOOKS) {
         let mut u = stream(trial, 3, i);
         let (mut a, b) = (uniform(&mut u), uniform(&mut u));
         if !claims.two_sided {

@@ -21,7 +21,7 @@ pub fn check(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scatterin
             draws(found, trial, &at, s, wo, claims.rounding);
             let integrals = density(found, trial, &at, s, wo);
             let aim = if claims.lossless { 1e-3 } else { 5e-3 };
-            let sampled = sampled(trial, s, wo, &integrals, aim, trial.pick(1 << 12, 1 << 16));
+            let sampled = sampled(trial, s, wo, &integrals, aim, trial.work(1 << 12, 1 << 16));
             let albedo = energy(found, &at, claims, &integrals, &sampled);
             albedos.push((mu, albedo, sampled.all.map(|m| m.standard_error())));
         }

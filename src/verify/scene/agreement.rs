@@ -46,7 +46,7 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
 
 fn compare(subject: &Subject, trial: &Trial, found: &mut Findings) -> Result<(), Error> {
     let scene = &subject.scene;
-    let rays = trial.pick(RAYS[0], RAYS[1]);
+    let rays = trial.work(RAYS[0], RAYS[1]);
     let settings = View { camera: 0, rays, seed: trial.seed, strategy: Strategy::Mis }.settings(scene)?;
     let samples = settings.replicate;
     let mut census = Census::default();

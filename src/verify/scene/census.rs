@@ -35,7 +35,7 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
 }
 
 fn count(subject: &Subject, camera: usize, trial: &Trial, found: &mut Findings) {
-    let view = View { camera, rays: trial.pick(RAYS[0], RAYS[1]), seed: trial.seed, strategy: Strategy::Mis };
+    let view = View { camera, rays: trial.work(RAYS[0], RAYS[1]), seed: trial.seed, strategy: Strategy::Mis };
     let settings = view.settings(&subject.scene);
     let output = settings.and_then(|s| View::render(&subject.scene, &s).map(|o| (s, o)));
     let (settings, output) = match output {

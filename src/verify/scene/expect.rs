@@ -24,7 +24,7 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
     }
     let subject = subject.clone();
     vec![Task::new(TOPIC, "answers of the file", move |trial, found| {
-        let others = trial.pick(RAYS[0], RAYS[1]);
+        let others = trial.work(RAYS[0], RAYS[1]);
         let effort = Effort { aim: AIM, own: OWN * others, others };
         checks(&subject.desc, &subject.scene, effort, trial, found);
     })]

@@ -78,7 +78,7 @@ fn burn(desc: &desc::Scene, dress: Dress, trial: &Trial, found: &mut Findings) {
     for (camera, view) in cameras {
         let look = View {
             camera,
-            rays: trial.pick(RAYS[0], RAYS[1]),
+            rays: trial.work(RAYS[0], RAYS[1]),
             seed: trial.seed ^ (camera as u64) << 40,
             strategy: Strategy::Mis,
         };

@@ -37,7 +37,7 @@ const NAMED: usize = 8;
 pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
     let groups = groups(&subject.desc);
     let names = unique(groups.iter().map(|g| &*subject.desc.objects[g[0]].name), "object");
-    let rays = |groups: usize, trial: &Trial| (trial.pick(RAYS[0], RAYS[1]) / groups.max(1)).clamp(2_000, 200_000);
+    let rays = |groups: usize, trial: &Trial| (trial.work(RAYS[0], RAYS[1]) / groups.max(1)).clamp(2_000, 200_000);
     let declared: Vec<_> = groups.into_iter().zip(names).filter(|(g, _)| subject.desc.objects[g[0]].closed).collect();
     let shares = declared.len();
     let mut tasks: Vec<Task> = Vec::new();
@@ -96,7 +96,7 @@ fn groups(scene: &desc::Scene) -> Vec<Vec<usize>> {
 fn undeclared(subject: &Subject, trial: &Trial, found: &mut Findings) {
     let scene = &subject.desc;
     let groups: Vec<Vec<usize>> = groups(scene).into_iter().filter(|g| !scene.objects[g[0]].closed).collect();
-    let rays = (trial.pick(RAYS[0], RAYS[1]) / groups.len().max(1)).clamp(2_000, 200_000);
+    let rays = (trial.work(RAYS[0], RAYS[1]) / groups.len().max(1)).clamp(2_000, 200_000);
     let (mut closed, mut total, mut escaped) = (0, 0, 0);
     let [mut open, mut large, mut refracting, mut inverted] = [const { Vec::<String>::new() }; 4];
     let mut known: Vec<Vec<usize>> = Vec::new();

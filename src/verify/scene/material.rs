@@ -182,7 +182,7 @@ impl Exam<'_> {
             let (bsdf, at) = (worn.towards(wo), format!("{name}, cos {}", side * mu));
             let trial = &trial.part(&at);
             draws(found, trial, &at, &bsdf, wo, CLAIMS.rounding);
-            let sampled = sampled(trial, &bsdf, wo, &Integrals::WHITE, 2e-3, trial.pick(1 << 10, 1 << 15));
+            let sampled = sampled(trial, &bsdf, wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
             if first && COUNTED.contains(&mu) {
                 let integrals = density(found, trial, &at, &bsdf, wo);
                 energy(found, &at, &CLAIMS, &integrals, &sampled);
@@ -213,7 +213,7 @@ impl Exam<'_> {
         let one = |&mu: &f64| {
             let (wo, at) = (at_cosine(side * mu), format!("{name}, made white, cos {}", side * mu));
             let sampled =
-                sampled(&trial.part(&at), &worn.towards(wo), wo, &Integrals::WHITE, 2e-3, trial.pick(1 << 10, 1 << 15));
+                sampled(&trial.part(&at), &worn.towards(wo), wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
             found.checks.replicated(format!("{at}: albedo = 1"), 1.0, &sampled.all[1], CLAIMS.granted);
             albedo(&sampled.all[1], &self.place(place, side * mu))
         };

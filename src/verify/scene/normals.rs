@@ -46,7 +46,7 @@ fn judge(subject: &Subject, trial: &Trial, found: &mut Findings) {
     found.words.extend(words);
 
     // Frames at random points.
-    let points = (trial.pick(POINTS[0], POINTS[1]) / meshes.len()).clamp(8, 50_000);
+    let points = (trial.work(POINTS[0], POINTS[1]) / meshes.len()).clamp(8, 50_000);
     let mut worst = Frames::default();
     for mesh in &meshes {
         worst.add(subject, mesh, points, trial.seed);

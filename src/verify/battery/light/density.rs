@@ -93,7 +93,7 @@ impl Placed {
         let wide = matches!(self.light, Light::Environment(_));
         let chart = if wide { Chart::sphere(BINS) } else { Chart::of(draw, BINS) };
         let how = trial.pick(Quadrature::default(), Quadrature { strata: 16, rough: 24 });
-        let count = trial.pick(60_000, 1_000_000);
+        let count = trial.work(60_000, 1_000_000);
         let fit = fit(&chart, (rng.random(), count, how), "directions drawn", draw, |w| self.density(w));
         found.checks.chi2("χ² of the shape", fit.test);
         found.exhibits.push(Exhibit::HeatMap(fit.map));
@@ -106,7 +106,7 @@ impl Placed {
             let inside = chart.direction(u.map(f64::from)).is_some_and(|w| self.density(w) > 0.0);
             chart.area() * f64::from(u8::from(inside))
         };
-        let most = trial.pick(1 << 12, 1 << 16) << if wide { 5 } else { 0 };
+        let most = trial.work(1 << 12, 1 << 16) << if wide { 5 } else { 0 };
         let guess = replicates(rng.random(), 64, inverse).mean();
         let drawn = to_detect(trial, guess, 3e-3, most, inverse);
         let seen = to_detect(&Trial { seed: rng.random(), ..*trial }, guess, 3e-3, most, support);
@@ -119,7 +119,7 @@ impl Placed {
         let mut rng = super::rng(trial.seed ^ 1);
         let (mut drawn, mut missed, mut worst) = (0, 0, 0f64);
         let (mut sound, mut unshadowed) = (true, true);
-        for _ in 0..trial.pick(10_000, 200_000) {
+        for _ in 0..trial.work(10_000, 200_000) {
             let Some(s) = self.draw([rng.random(), rng.random()]) else { continue };
             sound &= (s.wi.length() - 1.0).abs() < 1e-6 && s.le.is_finite() && !s.le.is_black();
             let Pdf::SolidAngle(pdf) = s.pdf else { continue };

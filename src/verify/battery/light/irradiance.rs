@@ -63,7 +63,7 @@ impl Lit<'_> {
     /// Most points a replicate; pictures need more, for they have small texels.
     fn most(&self, trial: &Trial) -> u64 {
         let wide = matches!(self.light, Light::Environment(_));
-        trial.pick(1 << 13, 1 << 16) << if wide { 4 } else { 0 }
+        trial.work(1 << 13, 1 << 16) << if wide { 4 } else { 0 }
     }
 
     /// The irradiance by drawing the light, with `exact` or about as much to go by.
@@ -75,7 +75,7 @@ impl Lit<'_> {
     pub(super) fn by_hemisphere(&self, trial: &Trial, exact: f64) -> Moments {
         let frame = Frame::from_z(self.n);
         let trial = Trial { seed: trial.seed.wrapping_add(1), ..*trial };
-        to_detect(&trial, exact, AIM, self.most(&trial).max(trial.pick(1 << 16, 1 << 19)), |u| {
+        to_detect(&trial, exact, AIM, self.most(&trial).max(trial.work(1 << 16, 1 << 19)), |u| {
             PI * self.seen(frame.to_world(cosine_hemisphere(u)))
         })
     }

@@ -32,7 +32,7 @@ pub(super) fn tasks() -> Vec<Task> {
 fn poses(trial: &Trial, found: &mut Findings) {
     let mut rng = rng(trial.seed);
     let mut worst = [0f64; 3];
-    for i in 0..trial.pick(700, 10_000) {
+    for i in 0..trial.work(700, 10_000) {
         let scale = 10f32.powi(i % 7 - 3);
         let (position, p) = (random_direction(&mut rng) * scale, random_direction(&mut rng) * (0.7 * scale));
         let (n, direction) = (random_direction(&mut rng), random_direction(&mut rng));

@@ -77,7 +77,7 @@ fn curve(
     for mu in cosines {
         let (wo, trial) = (at_cosine(mu), &trial.part(&format!("{mu}")));
         let integrals = integrals(trial, bsdf, wo);
-        let sampled = sampled(trial, bsdf, wo, &integrals, trial.pick(5e-3, 1e-3), trial.pick(1 << 12, 1 << 16));
+        let sampled = sampled(trial, bsdf, wo, &integrals, trial.pick(5e-3, 1e-3), trial.work(1 << 12, 1 << 16));
         let at = format!("cos {mu}");
         let albedo = energy(found, &at, claims, &integrals, &sampled);
         told(found, &at, bsdf.albedo(wo.as_vec3()), granted, &integrals, &sampled);

@@ -42,7 +42,7 @@ pub(super) fn tasks() -> Vec<Task> {
                     };
                     let granted = error / exact;
                     let at = format!("cos {mu}, lane {lane}");
-                    let most = trial.pick(1 << 12, 1 << 16);
+                    let most = trial.work(1 << 12, 1 << 16);
                     let uniform = hemispheres(trial, &s.bsdf, wo, lane, exact, most, |u| {
                         (warp::uniform_hemisphere(u), 0.5 * FRAC_1_PI)
                     });

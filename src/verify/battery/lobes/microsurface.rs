@@ -73,7 +73,7 @@ pub(super) fn tasks() -> Vec<Task> {
 /// ∫ f(m) dm by uniform directions w of the hemisphere scaled by α along x and y, under which D is constant: the linear
 /// map M takes the density p(w) to p(M⁻¹m/|M⁻¹m|) |M⁻¹| / |M⁻¹m|³.
 fn over_normals(trial: &Trial, g: Ggx, exact: f32, f: impl Fn(Vec3) -> f32) -> Moments {
-    to_detect(trial, exact.into(), AIM, trial.pick(1 << 14, 1 << 17), |u: [f32; 2]| {
+    to_detect(trial, exact.into(), AIM, trial.work(1 << 14, 1 << 17), |u: [f32; 2]| {
         let w = uniform_hemisphere(u);
         let m = Vec3::new(g.ax * w.x, g.ay * w.y, w.z).normalize();
         let length = Vec3::new(m.x / g.ax, m.y / g.ay, m.z).length();

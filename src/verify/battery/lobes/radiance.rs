@@ -22,7 +22,7 @@ pub(super) fn tasks() -> Vec<Task> {
     let mut tasks = each(any, |s| {
         Task::new(TOPIC, s.name.clone(), move |trial, found| {
             let (mut worst, mut same) = (0f64, true);
-            for i in 0..trial.pick(2_000, 20_000) {
+            for i in 0..trial.work(2_000, 20_000) {
                 let mut u = Sampler::new(Kind::Independent, trial.seed, [0, 0], i, 1);
                 let (wo, uc, uv) = (uniform_sphere(u.next_2d()), u.next_1d(), u.next_2d());
                 let draw = |mode| s.bsdf.sample(wo, uc, uv, mode);

@@ -13,7 +13,6 @@ mod topic;
 
 use super::cells::percent;
 use super::{About, Cells, Digest, Group, Report, SOFTWARE, count, one_line};
-use crate::verify::Size;
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use figures::Figures;
@@ -76,10 +75,7 @@ fn badge(passes: bool) -> Markup {
 
 fn header(report: &Report, about: &About) -> Markup {
     let (all, failures) = (report.checks().count(), report.failures().count());
-    let size = match report.size {
-        Size::Default => "default",
-        Size::Thorough => "thorough",
-    };
+    let size = report.size.name();
     let facts = [
         ("checks", count(all)),
         ("failures", count(failures)),
