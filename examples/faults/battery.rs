@@ -52,6 +52,11 @@ impl Outcome {
         self.rows.iter().filter(|row| row.failed > 0)
     }
 
+    /// True where a check of this row failed.
+    pub(crate) fn notices(&self, row: &str) -> bool {
+        self.failed().any(|failed| failed.id == row)
+    }
+
     /// True where something was noticed, be it a crash.
     pub(crate) fn caught(&self) -> bool {
         self.ended.is_some() || self.failed().next().is_some()
