@@ -96,18 +96,6 @@ fn higher_uv_sets_are_left_out() {
 }
 
 #[test]
-fn basisu_needs_a_fallback() {
-    let mut d = textured(json!({ "index": 0 }));
-    d.set("/extensionsUsed", json!(["KHR_texture_basisu"]));
-    d.set("/textures/0/extensions/KHR_texture_basisu", json!({ "source": 0 }));
-    let scene = d.read().unwrap();
-    assert!(noted(&scene, "`KHR_texture_basisu` is not honoured yet") && base(&scene).is_some());
-    d.remove("/textures/0/source").fails("/textures/0/source", "`KHR_texture_basisu`");
-    assert_eq!(d.read().unwrap_err().kind, ErrorKind::Unsupported);
-    d.set("/textures/0", json!({})).fails("/textures/0/source", "has no source");
-}
-
-#[test]
 fn broken_references_and_images() {
     textured(json!({ "index": 7 }))
         .fails("/materials/0/pbrMetallicRoughness/baseColorTexture/index", "texture 7; the file has 1");

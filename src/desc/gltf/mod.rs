@@ -6,6 +6,7 @@
 //! | primitive | one [`Mesh`](super::Mesh), shared by all nodes and primitives with the same data; points and lines are skipped |
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
+//! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
@@ -26,6 +27,7 @@ mod container;
 mod dielectric;
 mod document;
 mod extensions;
+mod image;
 mod light;
 mod material;
 mod mesh;
@@ -117,7 +119,7 @@ struct Reader<'a> {
     /// Texture of the document and whether it is sRGB → texture of the scene.
     textures: HashMap<(usize, bool), usize>,
     /// Image of the document → image of the scene.
-    images: HashMap<usize, usize>,
+    images: HashMap<usize, image::Decoded>,
     /// What a primitive is made of → shape of the scene, if a triangle is left of it.
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
     /// Mesh of the document → its primitives as shapes with materials.
