@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::slot::Slot;
+use super::uv_sets::UvSets;
 use crate::desc::{
     Alpha, ColorParam, Emission, Error, Material, MetallicRoughness, Model, NormalMap, ScalarParam, Sides, TextureRef,
 };
@@ -29,10 +30,13 @@ impl Reader<'_> {
             }
             None => (&default, "default".to_owned(), String::new()),
         };
+        self.uv_sets = UvSets::default();
         let material = self.convert(material, name, &place)?;
         self.scene.materials.push(material);
-        self.materials.insert(index, self.scene.materials.len() - 1);
-        Ok(self.scene.materials.len() - 1)
+        let number = self.scene.materials.len() - 1;
+        self.uv_sets_of.insert(number, self.uv_sets.numbers());
+        self.materials.insert(index, number);
+        Ok(number)
     }
 
     fn convert(&mut self, m: &json::Material, name: String, place: &str) -> Result<Material, Error> {
@@ -156,7 +160,7 @@ impl Reader<'_> {
     }
 }
 
-/// Which UV sets the textures of a material look at.
+/// Which of the two UV sets of a mesh the textures of a material look at.
 pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
     let mut used = [false; 2];
     let mut look = |texture: Option<TextureRef>| {

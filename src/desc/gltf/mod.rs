@@ -39,6 +39,7 @@ mod tangents;
 mod texture;
 mod triangles;
 mod uri;
+mod uv_sets;
 
 pub use extensions::HONOURED;
 
@@ -50,6 +51,7 @@ use gltf::json;
 use notes::Notes;
 use std::collections::HashMap;
 use std::path::Path;
+use uv_sets::UvSets;
 
 /// How other files are read: by the name in the document, and the JSON pointer for the error.
 pub type Resolve<'a> = &'a dyn Fn(&str, &str) -> Result<Vec<u8>, Error>;
@@ -74,6 +76,8 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         notes,
         scene: Scene { name, source: Some(file.into()), ..Scene::default() },
         materials: HashMap::new(),
+        uv_sets: UvSets::default(),
+        uv_sets_of: HashMap::new(),
         textures: HashMap::new(),
         images: HashMap::new(),
         geometry: HashMap::new(),
@@ -116,6 +120,10 @@ struct Reader<'a> {
     scene: Scene,
     /// Material of the document, or the default one → material of the scene.
     materials: HashMap<Option<usize>, usize>,
+    /// UV sets of the material that is being read.
+    uv_sets: UvSets,
+    /// Material of the scene → n of the TEXCOORD_n that it has in the places of 0 and 1.
+    uv_sets_of: HashMap<usize, [u32; 2]>,
     /// Texture of the document and whether it is sRGB → texture of the scene.
     textures: HashMap<(usize, bool), usize>,
     /// Image of the document → image of the scene.

@@ -8,15 +8,15 @@ use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
 
 impl Reader<'_> {
-    /// A use of a texture. `None`, with a note, where it wants a UV set beyond the second.
+    /// A use of a texture. `None`, with a note, where it wants a third UV set of the material.
     pub(super) fn texture(&mut self, slot: Slot, srgb: bool, place: &str) -> Result<Option<TextureRef>, Error> {
         let texture = self.document_texture(slot.texture, srgb, place)?;
-        let Slot { uv_set, transform, .. } = slot;
-        let reference = |uv_set| TextureRef { texture, uv_set, transform };
-        if uv_set > 1 {
-            self.notes.at(place, "TEXCOORD_2 and above are not read: textures that use them are left out");
+        let uv_set = self.uv_sets.place(slot.uv_set);
+        if uv_set.is_none() {
+            self.notes
+                .at(place, "a material's textures look at more than two UV sets: those of the third are left out");
         }
-        Ok((uv_set <= 1).then(|| reference(uv_set as usize)))
+        Ok(uv_set.map(|uv_set| TextureRef { texture, uv_set, transform: slot.transform }))
     }
 
     /// The texture `index` of the document, which `place` refers to.
