@@ -6,6 +6,8 @@ mod assets;
 mod document;
 #[path = "gltf/files.rs"]
 mod files;
+#[path = "gltf/formats.rs"]
+mod formats;
 #[path = "gltf/geometry.rs"]
 mod geometry;
 #[path = "gltf/hostile.rs"]

@@ -177,6 +177,24 @@ pub struct Image {
 pub enum Pixels {
     /// 8 bits a channel, RGBA.
     Rgba8(Vec<[u8; 4]>),
+    /// 16 bits a channel, RGBA.
+    Rgba16(Vec<[u16; 4]>),
     /// Linear float RGBA.
     Rgba32F(Vec<[f32; 4]>),
+}
+
+impl Pixels {
+    /// Codes, that a texture reads as numbers or by the sRGB curve; floats are linear.
+    pub fn are_codes(&self) -> bool {
+        !matches!(self, Self::Rgba32F(_))
+    }
+
+    /// Bytes of memory.
+    pub fn memory(&self) -> usize {
+        match self {
+            Self::Rgba8(pixels) => size_of_val(&pixels[..]),
+            Self::Rgba16(pixels) => size_of_val(&pixels[..]),
+            Self::Rgba32F(pixels) => size_of_val(&pixels[..]),
+        }
+    }
 }

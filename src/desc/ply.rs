@@ -132,7 +132,7 @@ impl PropertyAccess for Vertex {
         };
         let Some(value) = scalar(&property) else { return PropertyAccessResult::UnsupportedType };
         *target = match (name, &property) {
-            ("red" | "green" | "blue", Property::UChar(byte)) => image_file::srgb_to_linear([*byte, 0, 0, 0])[0],
+            ("red" | "green" | "blue", Property::UChar(byte)) => image_file::srgb8_to_linear([*byte, 0, 0, 0])[0],
             _ => value,
         };
         PropertyAccessResult::Set

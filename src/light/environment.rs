@@ -104,16 +104,21 @@ impl Environment {
 }
 
 impl Texels {
-    /// Of an image times `factor`; 8-bit images hold sRGB. What is negative or not finite counts as 0.
+    /// Of an image times `factor`; images of 8 and 16 bits hold sRGB. What is negative or not finite counts as 0.
     fn new(image: &desc::Image, factor: [f32; 3]) -> Self {
         let size = image.size.map(|n| n as usize);
         let sane = |x: f32| if x.is_finite() { x.max(0.0) } else { 0.0 };
         let scaled = |rgb: [f32; 3]| [0, 1, 2].map(|i| sane(rgb[i] * factor[i]));
         let radiance: Vec<[f32; 3]> = match &image.pixels {
             desc::Pixels::Rgba32F(pixels) => pixels.iter().map(|&[r, g, b, _]| scaled([r, g, b])).collect(),
-            desc::Pixels::Rgba8(pixels) => {
-                pixels.iter().map(|&[r, g, b, _]| scaled([r, g, b].map(srgb_to_linear))).collect()
-            }
+            desc::Pixels::Rgba8(pixels) => pixels
+                .iter()
+                .map(|&[r, g, b, _]| scaled([r, g, b].map(|c| srgb_to_linear(f32::from(c) / 255.0))))
+                .collect(),
+            desc::Pixels::Rgba16(pixels) => pixels
+                .iter()
+                .map(|&[r, g, b, _]| scaled([r, g, b].map(|c| srgb_to_linear(f32::from(c) / 65_535.0))))
+                .collect(),
         };
 
         let height = size[1] as f64;
@@ -186,7 +191,6 @@ fn solid_angle([width, height]: [usize; 2], row: usize) -> f64 {
 }
 
 /// IEC 61966-2-1.
-fn srgb_to_linear(byte: u8) -> f32 {
-    let x = f32::from(byte) / 255.0;
+fn srgb_to_linear(x: f32) -> f32 {
     if x <= 0.040_45 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
 }

@@ -9,29 +9,34 @@ use std::sync::{Arc, LazyLock};
 #[derive(Clone, Debug)]
 pub(super) struct ImageTexture {
     image: Arc<Image>,
-    decode: &'static [f32; 256],
+    /// Code → linear RGB, as long as a channel has codes.
+    decode: &'static [f32],
     wrap: [Wrap; 2],
     nearest: bool,
 }
 
-/// 8-bit code → linear: proportional, and by the sRGB curve (IEC 61966-2-1).
-static DECODE: LazyLock<[[f32; 256]; 2]> = LazyLock::new(|| {
-    let code = |i: usize| i as f64 / 255.0;
+/// Codes → linear: proportional, and by the sRGB curve (IEC 61966-2-1). Of 8 bits and of 16.
+static DECODE_8: LazyLock<[Vec<f32>; 2]> = LazyLock::new(|| curves(255));
+static DECODE_16: LazyLock<[Vec<f32>; 2]> = LazyLock::new(|| curves(65_535));
+
+fn curves(greatest: u32) -> [Vec<f32>; 2] {
+    let codes = || (0..=greatest).map(|i| f64::from(i) / f64::from(greatest));
     let srgb = |c: f64| if c <= 0.04045 { c / 12.92 } else { ((c + 0.055) / 1.055).powf(2.4) };
-    [std::array::from_fn(|i| code(i) as f32), std::array::from_fn(|i| srgb(code(i)) as f32)]
-});
+    [codes().map(|c| c as f32).collect(), codes().map(|c| srgb(c) as f32).collect()]
+}
 
 impl ImageTexture {
     /// Bytes of pixels.
     pub(super) fn memory(&self) -> usize {
-        match &self.image.pixels {
-            Pixels::Rgba8(pixels) => size_of_val(&pixels[..]),
-            Pixels::Rgba32F(pixels) => size_of_val(&pixels[..]),
-        }
+        self.image.pixels.memory()
     }
 
     pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
-        Self { image, decode: &DECODE[srgb as usize], wrap, nearest }
+        let decode = match image.pixels {
+            Pixels::Rgba8(_) | Pixels::Rgba32F(_) => &DECODE_8[srgb as usize],
+            Pixels::Rgba16(_) => &DECODE_16[srgb as usize],
+        };
+        Self { image, decode, wrap, nearest }
     }
 
     /// Linear RGBA at finite coordinates.
@@ -70,6 +75,11 @@ impl ImageTexture {
                 let [r, g, b, a] = pixels[i];
                 let d = |code: u8| self.decode[code as usize];
                 Vec4::new(d(r), d(g), d(b), a as f32 / 255.0)
+            }
+            Pixels::Rgba16(pixels) => {
+                let [r, g, b, a] = pixels[i];
+                let d = |code: u16| self.decode[code as usize];
+                Vec4::new(d(r), d(g), d(b), a as f32 / 65_535.0)
             }
             Pixels::Rgba32F(pixels) => Vec4::from(pixels[i]),
         }

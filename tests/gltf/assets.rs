@@ -1,20 +1,21 @@
 //! Real files: every one is read, or ends with the error that names what it requires.
 
-use radianza::desc::{ErrorKind, Scene, Shape, gltf};
+use radianza::desc::{ErrorKind, Model, Scene, Shape, gltf};
+use radianza::glam::{Affine2, Vec2, Vec3};
+use radianza::texture::Textures;
 use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What is required, and not honoured, by which file.
-const REFUSED: [(&str, &str); 5] = [
+const REFUSED: &[(&str, &str)] = &[
     ("AnimatedMorphCube.gltf", "KHR_mesh_quantization"),
     ("ChessBoard-draco.glb", "KHR_draco_mesh_compression"),
     ("DreamApartment-meshopt.glb", "EXT_meshopt_compression"),
     ("IridescenceSuzanne.glb", "KHR_materials_iridescence"),
-    ("StainedGlassLamp.gltf", "KHR_texture_basisu"),
 ];
 
 /// What is used and noted by which file.
-const NOTED: [(&str, &str); 5] = [
+const NOTED: &[(&str, &str)] = &[
     ("AnisotropyStrengthTest.glb", "KHR_materials_anisotropy"),
     ("AttenuationTest.glb", "attenuation is not honoured yet"),
     ("ClearCoatTest.glb", "KHR_materials_clearcoat"),
@@ -76,6 +77,59 @@ fn missing_tangents_are_those_that_an_exporter_writes() {
         }
         println!("{close} tangents and {signs} signs of {all} agree");
         assert!(close as f64 > 0.99 * all as f64 && signs as f64 > 0.99 * all as f64, "{close}, {signs} of {all}");
+    }
+}
+
+/// The test asset shows one picture three times: moved, turned and scaled by KHR_texture_transform on TEXCOORD_0 and on
+/// TEXCOORD_1, and as it is. Every kind of texture must come out alike, point by point.
+#[test]
+fn transformed_textures_are_their_samples() {
+    for path in assets().iter().filter(|p| p.ends_with("TextureTransformMultiTest.glb")) {
+        let scene = gltf::read(path).unwrap();
+        let textures = Textures::new(&scene);
+        for kind in ["BaseColor", "Emission", "Normal", "MetalRough", "Unlit"] {
+            let at = |which: &str, triangle: usize, b: Vec3, ignore: bool| {
+                let name = format!("{kind}{which}");
+                let object = scene.objects.iter().find(|o| o.name.contains(&name)).expect("an object of this name");
+                let Shape::Mesh(mesh) = &scene.shapes[object.shape] else { panic!("no mesh") };
+                let corners = mesh.indices[triangle].map(|i| i as usize);
+                let p: Vec3 = (0..3).map(|i| b[i] * mesh.positions[corners[i]]).sum();
+                let uv = [0, 1].map(|set| {
+                    let uv = &mesh.uv[set];
+                    (0..3).map(|i| if uv.is_empty() { Vec2::ZERO } else { b[i] * uv[corners[i]] }).sum()
+                });
+                let m = &scene.materials[object.material];
+                let pbr = match &m.model {
+                    Model::MetallicRoughness(pbr) => pbr.base_color.texture.or(pbr.roughness.texture.map(|t| t.0)),
+                    _ => None,
+                };
+                let texture = pbr.or(m.normal_map.map(|n| n.texture)).or(m.emission.and_then(|e| e.radiance.texture));
+                let mut texture = texture.expect("a texture");
+                if ignore {
+                    texture.transform = Affine2::IDENTITY;
+                }
+                (p, textures.lookup(&texture, &uv))
+            };
+            let mut off = [0.0; 4];
+            for i in 0..400 {
+                let (u, v) = (((i % 20) as f32 + 0.5) / 20.0, ((i / 20) as f32 + 0.5) / 20.0);
+                let b =
+                    if u + v < 1.0 { Vec3::new(u, v, 1.0 - u - v) } else { Vec3::new(1.0 - u, 1.0 - v, u + v - 1.0) };
+                let triangle = usize::from(u + v >= 1.0);
+                let (p, expected) = at("Sample", triangle, b, false);
+                for (k, (which, ignore)) in
+                    [("UV0", false), ("UV1", false), ("UV0", true), ("UV1", true)].into_iter().enumerate()
+                {
+                    let (q, found) = at(which, triangle, b, ignore);
+                    assert!(p.abs_diff_eq(q, 1e-4), "{kind}: the meshes differ: {p}, {q}");
+                    off[k] += (found - expected).truncate().abs().max_element() / 400.0;
+                }
+            }
+            // Edges differ by the resolution of the pictures.
+            println!("{kind}: mean difference {off:.4?}; the last two without the transform");
+            let [a, b, c, d] = off;
+            assert!(3.0 * a.max(b) < c.min(d), "{kind}: {off:?}");
+        }
     }
 }
 

@@ -1,6 +1,6 @@
 //! Textures, samplers, images, KHR_texture_transform.
 
-use super::document::{Document, noted, parse};
+use super::document::{Document, mesh, noted, parse};
 use radianza::desc::{ErrorKind, Model, Pixels, Scene, Texture, TextureRef, Wrap};
 use radianza::glam::Vec2;
 use serde_json::{Value, json};
@@ -89,22 +89,49 @@ fn transforms_per_slot() {
     assert_eq!((n.uv_set, n.transform.transform_point2(Vec2::ONE)), (0, Vec2::new(4.0, 5.0)));
 }
 
+/// Any two sets reach the mesh, each where its textures look.
 #[test]
-fn higher_uv_sets_are_left_out() {
-    let scene = textured(json!({ "index": 0, "texCoord": 2 })).read().unwrap();
-    assert!(base(&scene).is_none() && noted(&scene, "TEXCOORD_2 and above"));
-}
+fn two_uv_sets_of_any_number() {
+    let set = |n: usize| (0..3).map(|i| [n as f32, i as f32]).collect::<Vec<_>>();
+    let with = |base: u32, normal: u32| {
+        let mut d = textured(json!({ "index": 0, "texCoord": base }));
+        d.set("/materials/0/normalTexture", json!({ "index": 0, "texCoord": normal }));
+        for n in 1..7 {
+            d.attribute(&format!("TEXCOORD_{n}"), "VEC2", &set(n));
+        }
+        d
+    };
+    for (b, n) in [(0, 1), (1, 0), (5, 0), (0, 5), (5, 1), (6, 5), (5, 5)] {
+        let scene = with(b, n).read().unwrap();
+        let uv = &mesh(&scene, 0).uv;
+        let found = |t: TextureRef| uv[t.uv_set][2];
+        let expected = |n: u32| if n == 0 { Vec2::new(0.0, 1.0) } else { Vec2::new(n as f32, 2.0) };
+        let normal = scene.materials[0].normal_map.unwrap().texture;
+        assert_eq!((found(base(&scene).unwrap()), found(normal)), (expected(b), expected(n)), "{b}, {n}");
+        assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    }
 
-#[test]
-fn basisu_needs_a_fallback() {
-    let mut d = textured(json!({ "index": 0 }));
-    d.set("/extensionsUsed", json!(["KHR_texture_basisu"]));
-    d.set("/textures/0/extensions/KHR_texture_basisu", json!({ "source": 0 }));
+    // Two materials see one mesh differently.
+    let mut d = with(5, 6);
+    d.set("/materials/1", json!({ "pbrMetallicRoughness": { "baseColorTexture": { "index": 0, "texCoord": 3 } } }));
+    let mut second = d.json["meshes"][0]["primitives"][0].clone();
+    second["material"] = json!(1);
+    d.set("/meshes/0/primitives/1", second);
     let scene = d.read().unwrap();
-    assert!(noted(&scene, "`KHR_texture_basisu` is not honoured yet") && base(&scene).is_some());
-    d.remove("/textures/0/source").fails("/textures/0/source", "`KHR_texture_basisu`");
-    assert_eq!(d.read().unwrap_err().kind, ErrorKind::Unsupported);
-    d.set("/textures/0", json!({})).fails("/textures/0/source", "has no source");
+    assert_eq!(scene.shapes.len(), 2);
+    assert!(mesh(&scene, 1).uv.iter().any(|uv| uv[2] == Vec2::new(3.0, 2.0)));
+
+    // A third set, one that is missing, one of another length.
+    let mut d = with(5, 6);
+    d.set("/materials/0/emissiveFactor", json!([1, 1, 1]));
+    d.set("/materials/0/emissiveTexture", json!({ "index": 0, "texCoord": 0 }));
+    let scene = d.read().unwrap();
+    assert!(noted(&scene, "more than two UV sets") && noted(&scene, "/materials/0/normalTexture"));
+    assert!(scene.materials[0].normal_map.is_none() && scene.materials[0].emission.unwrap().radiance.texture.is_some());
+    assert!(noted(&with(5, 9).read().unwrap(), "TEXCOORD_9, which is missing"));
+    let mut d = with(5, 0);
+    d.attribute("TEXCOORD_5", "VEC2", &[[0.0; 2]; 2]);
+    d.fails("/meshes/0/primitives/0/attributes/TEXCOORD_5", "has 2 elements; expected 3");
 }
 
 #[test]

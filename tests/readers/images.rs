@@ -13,14 +13,14 @@ fn png(image: impl Into<image::DynamicImage>) -> Vec<u8> {
 fn rgba8(image: &Image) -> &[[u8; 4]] {
     match &image.pixels {
         Pixels::Rgba8(pixels) => pixels,
-        Pixels::Rgba32F(_) => panic!("{} should have 8 bits", image.name),
+        _ => panic!("{} should have 8 bits", image.name),
     }
 }
 
 fn float(image: &Image) -> &[[f32; 4]] {
     match &image.pixels {
         Pixels::Rgba32F(pixels) => pixels,
-        Pixels::Rgba8(_) => panic!("{} should be float", image.name),
+        _ => panic!("{} should be float", image.name),
     }
 }
 
@@ -49,7 +49,9 @@ fn png_of_every_color_type() {
     let grey_alpha = image::GrayAlphaImage::from_pixel(1, 1, image::LumaA([7, 9]));
     assert_eq!(rgba8(&decode("a", &png(grey_alpha)).unwrap()), [[7, 7, 7, 9]]);
     let deep = image::ImageBuffer::from_pixel(1, 1, image::Rgba([0u16, 65_535, 0x8080, 257]));
-    assert_eq!(rgba8(&decode("a", &png(deep)).unwrap()), [[0, 255, 128, 1]]);
+    assert_eq!(decode("a", &png(deep)).unwrap().pixels, Pixels::Rgba16(vec![[0, 65_535, 0x8080, 257]]));
+    let deep_grey = image::ImageBuffer::from_pixel(1, 1, image::Luma([1000u16]));
+    assert_eq!(decode("a", &png(deep_grey)).unwrap().pixels, Pixels::Rgba16(vec![[1000, 1000, 1000, 65_535]]));
 }
 
 #[test]
@@ -153,7 +155,9 @@ fn negative_values_are_cleared_and_counted() {
 fn wrong_files_are_named() {
     for (bytes, expected) in [
         (&b""[..], "is empty"),
-        (b"RIFF\0\0\0\0WEBPVP8 ", "is WebP; expected PNG, JPEG"),
+        (b"RIFF\0\0\0\0WEBPVP8 ", "is not a valid WebP"),
+        (b"\xabKTX 11\xbb\r\n\x1a\n", "is KTX of the first version; expected PNG, JPEG, WebP, KTX2"),
+        (b"\xabKTX 20\xbb\r\n\x1a\n", "is not a valid KTX2"),
         (b"hello", "unknown format"),
         (b"\x89PNG\r\n\x1a\n", "is not a valid PNG"),
         (b"\xff\xd8\xff\xe0", "is not a valid JPEG"),

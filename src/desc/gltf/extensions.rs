@@ -6,7 +6,8 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 8] = [
+pub const HONOURED: [&str; 10] = [
+    "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
@@ -14,6 +15,7 @@ pub const HONOURED: [&str; 8] = [
     "KHR_materials_transmission",
     "KHR_materials_unlit",
     "KHR_materials_volume",
+    "KHR_texture_basisu",
     "KHR_texture_transform",
 ];
 

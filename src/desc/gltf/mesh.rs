@@ -20,8 +20,10 @@ pub(super) struct Part {
 pub(super) struct Ingredients {
     mode: u32,
     indices: Option<usize>,
-    /// Accessors of position, normal, tangent, UV 0, UV 1, colour.
+    /// Accessors of position, normal, tangent, the material's two UV sets, colour.
     attributes: [Option<usize>; 6],
+    /// n of the TEXCOORD_n that the two are.
+    uv_sets: [u32; 2],
     /// UV set and transform (bits) of the normal map that the tangents are for.
     map: Option<(usize, [u32; 6])>,
 }
@@ -66,7 +68,7 @@ impl Reader<'_> {
         }
         let accessor =
             |semantic: &Semantic| primitive.attributes.get(&Checked::Valid(semantic.clone())).map(|i| i.value());
-        let attributes = ATTRIBUTES.each_ref().map(|(semantic, _)| accessor(semantic));
+        let mut attributes = ATTRIBUTES.each_ref().map(|(semantic, _)| accessor(semantic));
         if attributes[0].is_none() {
             self.notes.at(place, "primitives without POSITION are skipped");
             return Ok(None);
@@ -74,9 +76,13 @@ impl Reader<'_> {
 
         // Find what the material needs of the mesh: UV for its textures, tangents for its normal map.
         let material = self.material(primitive.material.map(|m| m.value()), &format!("{place}/material"))?;
+        let uv_sets = self.uv_sets_of[&material];
         for (set, used) in material::uv_sets(&self.scene.materials[material]).into_iter().enumerate() {
+            let number = uv_sets[set];
+            attributes[3 + set] = accessor(&Semantic::TexCoords(number));
             if used && attributes[3 + set].is_none() {
-                let note = format!("the material looks textures up by TEXCOORD_{set}, which is missing: UV is (0, 0)");
+                let note =
+                    format!("the material looks textures up by TEXCOORD_{number}, which is missing: UV is (0, 0)");
                 self.notes.at(place, note);
             }
         }
@@ -89,6 +95,7 @@ impl Reader<'_> {
             mode: mode.as_gl_enum(),
             indices: primitive.indices.map(|i| i.value()),
             attributes,
+            uv_sets,
             map: map.map(|map| (map.uv_set, map.transform.to_cols_array().map(f32::to_bits))),
         };
         let shape = match self.geometry.get(&ingredients) {
@@ -132,7 +139,10 @@ impl Reader<'_> {
     /// Vertices and triangles as the file has them, checked and repaired.
     fn triangles(&mut self, from: &Ingredients, mode: Mode, place: &str) -> Result<Mesh, Error> {
         let [position, normal, tangent, uv0, uv1, color] = from.attributes;
-        let at = |i: usize| format!("{place}/attributes/{}", ATTRIBUTES[i].1);
+        let at = |i: usize| match i {
+            3 | 4 => format!("{place}/attributes/TEXCOORD_{}", from.uv_sets[i - 3]),
+            _ => format!("{place}/attributes/{}", ATTRIBUTES[i].1),
+        };
         let positions = self.attribute::<3>(position, &at(0), false, None)?;
         let count = positions.len();
         if u32::try_from(count).is_err() {

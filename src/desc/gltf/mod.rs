@@ -6,6 +6,7 @@
 //! | primitive | one [`Mesh`](super::Mesh), shared by all nodes and primitives with the same data; points and lines are skipped |
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
+//! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
@@ -26,17 +27,19 @@ mod container;
 mod dielectric;
 mod document;
 mod extensions;
+mod image;
 mod light;
 mod material;
 mod mesh;
 mod node;
 mod normals;
 mod notes;
-
+mod slot;
 mod tangents;
 mod texture;
 mod triangles;
 mod uri;
+mod uv_sets;
 
 pub use extensions::HONOURED;
 
@@ -48,6 +51,7 @@ use gltf::json;
 use notes::Notes;
 use std::collections::HashMap;
 use std::path::Path;
+use uv_sets::UvSets;
 
 /// How other files are read: by the name in the document, and the JSON pointer for the error.
 pub type Resolve<'a> = &'a dyn Fn(&str, &str) -> Result<Vec<u8>, Error>;
@@ -72,6 +76,8 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         notes,
         scene: Scene { name, source: Some(file.into()), ..Scene::default() },
         materials: HashMap::new(),
+        uv_sets: UvSets::default(),
+        uv_sets_of: HashMap::new(),
         textures: HashMap::new(),
         images: HashMap::new(),
         geometry: HashMap::new(),
@@ -114,10 +120,14 @@ struct Reader<'a> {
     scene: Scene,
     /// Material of the document, or the default one → material of the scene.
     materials: HashMap<Option<usize>, usize>,
+    /// UV sets of the material that is being read.
+    uv_sets: UvSets,
+    /// Material of the scene → n of the TEXCOORD_n that it has in the places of 0 and 1.
+    uv_sets_of: HashMap<usize, [u32; 2]>,
     /// Texture of the document and whether it is sRGB → texture of the scene.
     textures: HashMap<(usize, bool), usize>,
     /// Image of the document → image of the scene.
-    images: HashMap<usize, usize>,
+    images: HashMap<usize, image::Decoded>,
     /// What a primitive is made of → shape of the scene, if a triangle is left of it.
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
     /// Mesh of the document → its primitives as shapes with materials.

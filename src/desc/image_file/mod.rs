@@ -1,10 +1,13 @@
-//! Decoding image files: PNG, JPEG, Radiance HDR, OpenEXR. The format is told by the first bytes, never by the name.
+//! Decoding image files: PNG, JPEG, WebP, KTX2 with Basis Universal, Radiance HDR, OpenEXR. The format is told by the first bytes, never by the name.
 //!
 //! Files are hostile: sizes are checked before anything is allocated, and a decoder that fails, in whatever way, becomes
 //! an error.
 
 mod exr;
+mod ktx2;
 mod raster;
+
+pub(super) use ktx2::is_srgb as ktx2_is_srgb;
 
 use super::{Image, Pixels};
 
@@ -16,8 +19,11 @@ const MAX_BYTES: u64 = 2 << 30;
 
 /// An image file to pixels, or what is wrong with it.
 ///
-/// * PNG of any bit depth (16 bits are rounded to 8), grey or colour, with or without alpha or palette, and JPEG become
-///   [`Pixels::Rgba8`] as stored: the texture says whether they carry the sRGB curve.
+/// * PNG of any bit depth, grey or colour, with or without alpha or palette, JPEG and WebP (of an animation, the first
+///   frame) become [`Pixels::Rgba8`] as stored, or [`Pixels::Rgba16`] where they have 16 bits: the texture says whether
+///   they carry the sRGB curve.
+/// * KTX2 with Basis Universal (ETC1S with BasisLZ; UASTC, plain or with Zstandard; one 2D image) becomes
+///   [`Pixels::Rgba8`]: its largest level, which is all that is needed (see [`crate::texture`]).
 /// * Radiance HDR (RGBE) and OpenEXR (half, float or integer channels; scan lines or tiles; every compression)
 ///   become [`Pixels::Rgba32F`]. Of an EXR, the first layer with R, G, B (or Y, or `name.R`, …) is taken, placed in its
 ///   display window; colour is divided by alpha, because EXR stores it premultiplied and everything here does not.
@@ -29,6 +35,8 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
     let decoded = std::panic::catch_unwind(|| match kind {
         Kind::Png => raster::ldr(image::ImageFormat::Png, bytes),
         Kind::Jpeg => raster::ldr(image::ImageFormat::Jpeg, bytes),
+        Kind::WebP => raster::ldr(image::ImageFormat::WebP, bytes),
+        Kind::Ktx2 => ktx2::decode(bytes),
         Kind::Hdr => raster::hdr(bytes),
         Kind::Exr => exr::decode(bytes),
     });
@@ -36,6 +44,11 @@ pub fn decode(name: &str, bytes: &[u8]) -> Result<Image, String> {
         .unwrap_or_else(|_| Err("the decoder gave up".into()))
         .map_err(|e| format!("is not a valid {}: {e}", kind.name()))?;
     Ok(Image { name: name.into(), size, pixels })
+}
+
+/// Name of the format that the first bytes announce, for messages; an error where it is none of those decoded.
+pub(super) fn format(bytes: &[u8]) -> Result<&'static str, String> {
+    Kind::of(bytes).map(Kind::name)
 }
 
 /// Sets the negative values of a float image to 0, and says how many pixels that changed. Radiance and reflectance
@@ -50,20 +63,38 @@ pub fn clear_negatives(image: &mut Image) -> usize {
     changed
 }
 
-/// 8-bit sRGB with straight alpha to linear floats (IEC 61966-2-1).
-pub(crate) fn srgb_to_linear([r, g, b, a]: [u8; 4]) -> [f32; 4] {
-    let linear = |byte: u8| {
-        let x = f64::from(byte) / 255.0;
-        (if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }) as f32
-    };
-    [linear(r), linear(g), linear(b), f32::from(a) / 255.0]
+/// 8-bit sRGB with straight alpha to linear floats.
+pub(crate) fn srgb8_to_linear(rgba: [u8; 4]) -> [f32; 4] {
+    decoded(rgba.map(|code| f64::from(code) / 255.0))
 }
+
+/// Codes as sRGB with straight alpha to linear floats; floats are linear.
+pub(super) fn srgb_to_linear(pixels: Pixels) -> Pixels {
+    Pixels::Rgba32F(match pixels {
+        Pixels::Rgba8(pixels) => pixels.into_iter().map(srgb8_to_linear).collect(),
+        Pixels::Rgba16(pixels) => {
+            pixels.into_iter().map(|p| decoded(p.map(|code| f64::from(code) / 65_535.0))).collect()
+        }
+        Pixels::Rgba32F(pixels) => pixels,
+    })
+}
+
+/// RGB by the sRGB curve (IEC 61966-2-1), A as it is.
+fn decoded([r, g, b, a]: [f64; 4]) -> [f32; 4] {
+    let linear = |x: f64| (if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }) as f32;
+    [linear(r), linear(g), linear(b), a as f32]
+}
+
+/// Names of the formats, for messages.
+const EXPECTED: &str = "PNG, JPEG, WebP, KTX2, Radiance HDR or OpenEXR";
 
 /// Formats that are decoded.
 #[derive(Clone, Copy, Debug)]
 enum Kind {
     Png,
     Jpeg,
+    WebP,
+    Ktx2,
     Hdr,
     Exr,
 }
@@ -74,19 +105,20 @@ impl Kind {
         match bytes {
             [0x89, b'P', b'N', b'G', ..] => Ok(Self::Png),
             [0xff, 0xd8, 0xff, ..] => Ok(Self::Jpeg),
+            [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => Ok(Self::WebP),
+            [0xab, b'K', b'T', b'X', b' ', b'2', b'0', ..] => Ok(Self::Ktx2),
             [b'#', b'?', ..] => Ok(Self::Hdr),
             [0x76, 0x2f, 0x31, 0x01, ..] => Ok(Self::Exr),
-            [] => Err("is empty; expected PNG, JPEG, Radiance HDR or OpenEXR".into()),
+            [] => Err(format!("is empty; expected {EXPECTED}")),
             _ => {
                 let other = match bytes {
-                    [b'R', b'I', b'F', b'F', _, _, _, _, b'W', b'E', b'B', b'P', ..] => "WebP",
-                    [0xab, b'K', b'T', b'X', ..] => "KTX",
+                    [0xab, b'K', b'T', b'X', ..] => "KTX of the first version",
                     [b'G', b'I', b'F', ..] => "GIF",
                     [b'B', b'M', ..] => "BMP",
                     [b'I', b'I', 42, 0, ..] | [b'M', b'M', 0, 42, ..] => "TIFF",
                     _ => "an unknown format",
                 };
-                Err(format!("is {other}; expected PNG, JPEG, Radiance HDR or OpenEXR"))
+                Err(format!("is {other}; expected {EXPECTED}"))
             }
         }
     }
@@ -95,6 +127,8 @@ impl Kind {
         match self {
             Self::Png => "PNG",
             Self::Jpeg => "JPEG",
+            Self::WebP => "WebP",
+            Self::Ktx2 => "KTX2",
             Self::Hdr => "Radiance HDR",
             Self::Exr => "OpenEXR",
         }

@@ -1,27 +1,31 @@
-//! PNG, JPEG and Radiance HDR.
+//! PNG, JPEG, WebP and Radiance HDR.
 
 use super::{Decoded, MAX_BYTES, MAX_SIDE, Pixels, check_finite, check_size};
 use image::codecs::hdr::HdrDecoder;
-use image::{ImageDecoder, ImageFormat, ImageReader, Limits};
+use image::{DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// PNG or JPEG to 8-bit RGBA.
+/// PNG, JPEG or WebP to RGBA of 8 bits, or of 16 where the file has 16.
 pub(super) fn ldr(format: ImageFormat, bytes: &[u8]) -> Decoded {
     let mut limits = Limits::default();
     limits.max_image_width = Some(MAX_SIDE);
     limits.max_image_height = Some(MAX_SIDE);
     limits.max_alloc = Some(2 * MAX_BYTES);
 
-    let reader = ImageReader::with_format(Cursor::new(bytes), format);
-    let (width, height) = reader.into_dimensions().map_err(|e| e.to_string())?;
-    // 12 bytes: 16-bit RGBA as decoded, beside 8-bit RGBA as kept.
-    let size = check_size(width.into(), height.into(), 12)?;
-
     let mut reader = ImageReader::with_format(Cursor::new(bytes), format);
     reader.limits(limits);
-    let decoded = reader.decode().map_err(|e| e.to_string())?;
-    let pixels = decoded.into_rgba8().into_raw().chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect();
-    Ok((size, Pixels::Rgba8(pixels)))
+    let decoder = reader.into_decoder().map_err(|e| e.to_string())?;
+    let ((width, height), color) = (decoder.dimensions(), decoder.color_type());
+    // RGBA as decoded, beside RGBA as kept.
+    let deep = color.bytes_per_pixel() > color.channel_count();
+    let size = check_size(width.into(), height.into(), if deep { 16 } else { 8 })?;
+
+    let decoded = DynamicImage::from_decoder(decoder).map_err(|e| e.to_string())?;
+    let pixels = match deep {
+        true => Pixels::Rgba16(decoded.into_rgba16().into_raw().as_chunks().0.to_vec()),
+        false => Pixels::Rgba8(decoded.into_rgba8().into_raw().as_chunks().0.to_vec()),
+    };
+    Ok((size, pixels))
 }
 
 /// Radiance HDR (Ward 1991) to linear floats: (mantissa, exponent) / exposure.

@@ -13,8 +13,8 @@
 use super::numbers;
 use crate::desc::files::Folder;
 use crate::desc::{
-    Alpha, ColorParam, Emission, Error, Image, Material, MetallicRoughness, Model, NormalMap, Pixels, Roughness,
-    ScalarParam, Scene, Sides, Texture, TextureRef, Wrap, image_file,
+    Alpha, ColorParam, Emission, Error, Image, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam,
+    Scene, Sides, Texture, TextureRef, Wrap, image_file,
 };
 use glam::Affine2;
 use std::path::Path;
@@ -125,7 +125,7 @@ fn texture(text: &str, srgb: bool, folder: &Folder, scene: &mut Scene) -> Result
             scene.images.len() - 1
         }
     };
-    let srgb = srgb && matches!(scene.images[image].pixels, Pixels::Rgba8(_));
+    let srgb = srgb && scene.images[image].pixels.are_codes();
     let wanted = Texture::Image { image, srgb, wrap: [Wrap::Repeat; 2], nearest: false };
     let texture = scene.textures.iter().position(|t| *t == wanted).unwrap_or_else(|| {
         scene.textures.push(wanted);

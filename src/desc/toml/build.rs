@@ -5,7 +5,7 @@ use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
 use crate::desc::files::Folder;
-use crate::desc::{Emission, Image, Light, Material, Mesh, Model, Object, Pixels, Scene, TextureRef};
+use crate::desc::{Emission, Image, Light, Material, Mesh, Model, Object, Scene, TextureRef};
 use crate::desc::{image_file, load, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
@@ -276,9 +276,7 @@ impl<'a> Builder<'a> {
                 file.value
             ));
         }
-        if let Pixels::Rgba8(pixels) = &image.pixels {
-            image.pixels = Pixels::Rgba32F(pixels.iter().map(|p| image_file::srgb_to_linear(*p)).collect());
-        }
+        image.pixels = image_file::srgb_to_linear(image.pixels);
         let cleared = image_file::clear_negatives(&mut image);
         if cleared > 0 {
             self.scene.notes.push(format!("{}: {cleared} pixels had negative values, now 0", file.value));

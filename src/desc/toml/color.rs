@@ -4,7 +4,7 @@ use super::build::Builder;
 use super::keys::keys;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Read, mismatch, words};
 use super::schema::Defs;
-use crate::desc::image_file::srgb_to_linear;
+use crate::desc::image_file::srgb8_to_linear;
 use crate::desc::{ColorParam, ScalarParam};
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
@@ -155,7 +155,7 @@ fn hex(s: &str) -> Option<[f32; 3]> {
     let digits = s.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()))?;
     let n = u32::from_str_radix(digits, 16).ok()?;
     let [_, r, g, b] = n.to_be_bytes();
-    let [r, g, b, _] = srgb_to_linear([r, g, b, 255]);
+    let [r, g, b, _] = srgb8_to_linear([r, g, b, 255]);
     Some([r, g, b])
 }
 

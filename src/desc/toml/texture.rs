@@ -5,7 +5,7 @@ use super::color::Grey;
 use super::keys::{keys, one_of};
 use super::read::{At, Fault, Fraction, Node, Number, Positive, Read, mismatch, words};
 use super::schema::Defs;
-use crate::desc::{Pixels, Texture, Wrap};
+use crate::desc::{Texture, Wrap};
 use ::toml::de::DeValue;
 use glam::{Affine2, Mat2, Vec2};
 use serde_json::{Value as Json, json};
@@ -128,9 +128,9 @@ impl TextureTable {
         match &self.kind {
             TextureKind::ImageTexture(t) => {
                 let image = b.image(&t.file)?;
-                let eight_bit = matches!(b.scene.images[image].pixels, Pixels::Rgba8(_));
-                let srgb = eight_bit && t.srgb.unwrap_or(as_color);
-                if t.srgb == Some(true) && !eight_bit {
+                let codes = b.scene.images[image].pixels.are_codes();
+                let srgb = codes && t.srgb.unwrap_or(as_color);
+                if t.srgb == Some(true) && !codes {
                     return Err(Fault::new(&t.file.at, "a float image is linear; leave `srgb` out"));
                 }
                 Ok(Texture::Image { image, srgb, wrap: t.wrap.0, nearest: t.filter == Lookup::Nearest })

@@ -104,6 +104,7 @@ fn extremes(scene: &Scene, reading: &Reading) -> Option<[Vec2; 3]> {
             let [width, height] = image.size.map(|n| n as usize);
             let value = |i: usize| match &image.pixels {
                 Pixels::Rgba8(pixels) => sum(pixels[i].map(f32::from), reading.channel),
+                Pixels::Rgba16(pixels) => sum(pixels[i].map(f32::from), reading.channel),
                 Pixels::Rgba32F(pixels) => sum(pixels[i], reading.channel),
             };
             // Every pixel, or of great images some of each row and column.
