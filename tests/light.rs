@@ -4,7 +4,7 @@
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec4};
-use radianza::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
+use radianza::light::{Environment, Light, Lights, QuadricLight, Receiver, TriangleLight};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
@@ -25,9 +25,9 @@ fn darkness_is_empty() {
     for lights in [vec![], vec![black.clone(), black]] {
         let lights = Lights::new(lights, (Vec3::ZERO, 1.0), &textures);
         assert!(lights.is_empty());
-        assert!(lights.sample(Vec3::ONE, 0.5, [0.5; 2], &textures).is_none());
+        assert!(lights.sample(&Receiver::anywhere(Vec3::ONE), 0.5, [0.5; 2], &textures).is_none());
         assert_eq!(lights.environment_le(Vec3::X), Spectrum::ZERO);
-        assert_eq!(lights.environment_pdf(Vec3::X), 0.0);
+        assert_eq!(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), Vec3::X), 0.0);
         assert_eq!(lights.total_power(), Spectrum::ZERO);
     }
 }
@@ -49,9 +49,10 @@ fn environments_add_up() {
     let mut rng = Pcg64Mcg::new(9);
     for _ in 0..1000 {
         let u = [rng.random(), rng.random()];
-        let (_, s) = lights.sample(Vec3::ZERO, rng.random(), u, &textures).expect("light from everywhere");
+        let (_, s) =
+            lights.sample(&Receiver::anywhere(Vec3::ZERO), rng.random(), u, &textures).expect("light from everywhere");
         assert_eq!(s.le, lights.environment_le(s.wi));
-        assert_eq!(s.pdf, Pdf::SolidAngle(lights.environment_pdf(s.wi)));
+        assert_eq!(s.pdf, Pdf::SolidAngle(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), s.wi)));
     }
 }
 

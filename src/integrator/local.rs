@@ -62,7 +62,7 @@ pub(super) fn reflected<O: Observer>(
     // By direction, as far as the first surface.
     let Some(next) = strategy::sample(method, shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { return sum };
     let Some(ray) = shading.leave(vertex, next.wi) else { return sum };
-    let drawn = Drawn::new(next.pdf, vertex.surface.p);
+    let drawn = Drawn::new(next.pdf, shading.receiver(vertex));
     if !keep(drawn) {
         return sum;
     }

@@ -23,11 +23,11 @@ pub use strategy::Drawn;
 use crate::bsdf::{Bsdf, Pdf, Transport};
 use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
+use crate::light::Receiver;
 use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading, Vertex};
 use crate::spectrum::Spectrum;
-use glam::Vec3;
 
 /// What an estimator needs to know beside the ray.
 #[derive(Clone, Copy, Debug)]
@@ -131,7 +131,8 @@ pub fn direct_light<O: Observer>(
 ) -> (Spectrum, Spectrum) {
     const NOTHING: (Spectrum, Spectrum) = (Spectrum::ZERO, Spectrum::ZERO);
     let scene = method.scene;
-    let Some((_, light)) = scene.lights.sample(vertex.surface.p, choice, u, &scene.textures) else { return NOTHING };
+    let receiver = shading.receiver(vertex);
+    let Some((_, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
     let wi = shading.frame.to_local(light.wi);
     if !shading.agrees(vertex, light.wi, wi) {
         return NOTHING;
@@ -158,12 +159,12 @@ pub fn direct_light<O: Observer>(
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would
 /// have drawn the same direction.
-fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce(Vec3) -> f32) -> f32 {
+fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce(&Receiver) -> f32) -> f32 {
     match (drawn, strategy) {
         (Drawn::Camera | Drawn::Delta, _) => 1.0,
         (_, Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => 1.0,
-        (Drawn::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(from)),
-        (Drawn::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(from) == 0.0),
+        (Drawn::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(&from)),
+        (Drawn::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(&from) == 0.0),
     }
 }
 
@@ -198,7 +199,7 @@ fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
     if le.is_black() {
         return Spectrum::ZERO;
     }
-    le * weight_of_hit(method.strategy, drawn, |_| lights.environment_pdf(ray.d))
+    le * weight_of_hit(method.strategy, drawn, |from| lights.environment_pdf(from, ray.d))
 }
 
 /// Whether `bsdf` reflects light that the light sampler finds.

@@ -63,7 +63,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
-        drawn = Drawn::new(next.pdf, vertex.surface.p);
+        drawn = Drawn::new(next.pdf, shading.receiver(&vertex));
         ray = leaving;
         watch.drawn(drawn, beta);
         if O::CLASSES {

@@ -3,6 +3,7 @@
 use super::Method;
 use crate::bsdf::{Bsdf, Pdf, Sample, Transport};
 use crate::desc::Strategy;
+use crate::light::Receiver;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};
@@ -18,15 +19,15 @@ pub enum Drawn {
     Smooth {
         /// \[1/sr\]
         pdf: f32,
-        /// The surface point: where the light sampler would have stood (the ray's origin is off the surface).
-        from: Vec3,
+        /// The surface: where the light sampler would have stood (the ray's origin is off the surface).
+        from: Receiver,
     },
 }
 
 impl Drawn {
-    /// From the density of a draw at the surface point `from`.
+    /// From the density of a draw at the surface `from`.
     #[inline]
-    pub fn new(pdf: Pdf, from: Vec3) -> Self {
+    pub fn new(pdf: Pdf, from: Receiver) -> Self {
         match pdf {
             Pdf::SolidAngle(pdf) => Self::Smooth { pdf, from },
             Pdf::Discrete(_) => Self::Delta,

@@ -1,29 +1,24 @@
 //! All lights of a scene, and the choice of one.
 
-use super::{Alias, Light, LightSample};
+use super::{Choice, Light, LightSample, Receiver};
 use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use glam::{Vec2, Vec3, Vec4};
 use std::cell::OnceCell;
 
-/// Share of the choice that is spread evenly over all lights that shine: a weak lamp beside a strong sky is still
-/// asked now and then, which bounds the variance that it can cause where it is near.
-const EVEN: f64 = 0.01;
-
-/// The lights of a scene, chosen with probability by power.
+/// The lights of a scene, one of which is asked at a time.
 #[derive(Clone, Debug, Default)]
 pub struct Lights {
     lights: Vec<Light>,
     powers: Vec<Spectrum>,
     environments: Vec<u32>,
-    /// `None` where nothing shines.
-    alias: Option<Alias>,
+    choice: Choice,
 }
 
 impl Lights {
     /// Lights of a scene within the sphere of this centre and radius. A light has probability 0 only where its radiance
-    /// is 0 everywhere; the others share in proportion to the luminance of their flux, and a little evenly.
+    /// is 0 everywhere; how the others share is the business of [`Choice`].
     pub fn new(lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
         // A scene of one point, or of none, is still lit from infinity.
         let radius = if radius.is_finite() { radius.clamp(1e-12, 1e15) } else { 1.0 };
@@ -37,23 +32,23 @@ impl Lights {
             let y = f64::from(p.luminance());
             if p.is_black() { 0.0 } else { y.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) }
         };
-        let weights: Vec<f64> = powers.iter().map(weight).collect();
-        let total: f64 = weights.iter().sum();
-        let shining = weights.iter().filter(|&&w| w > 0.0).count() as f64;
-        let share = |&w: &f64| if w > 0.0 { (1.0 - EVEN) * w / total + EVEN / shining } else { 0.0 };
-        let alias = Alias::new(&weights.iter().map(share).collect::<Vec<_>>());
-        Self { lights, powers, environments, alias }
+        let fluxes: Vec<f64> = powers.iter().map(weight).collect();
+        let choice = Choice::new(&lights, &fluxes, radius);
+        Self { lights, powers, environments, choice }
     }
 
-    /// Draws light that arrives at `p`: `uc` chooses the light, `u` the point on it. The density (or probability)
-    /// includes that of the choice.
+    /// The same lights, chosen by power alone, however many they are: what the tree is measured against.
+    pub fn by_power(self) -> Self {
+        Self { choice: self.choice.by_power(), ..self }
+    }
+
+    /// Draws light that arrives at the receiver: `uc` chooses the light, `u` the point on it. The density (or
+    /// probability) includes that of the choice.
     #[inline]
-    pub fn sample(&self, p: Vec3, uc: f32, u: [f32; 2], textures: &Textures) -> Option<(u32, LightSample)> {
-        let alias = self.alias.as_ref()?;
-        let index = alias.choose(uc);
-        let choice = alias.probability(index);
-        let light = &self.lights[index];
-        let mut sample = light.sample(p, u, textures)?;
+    pub fn sample(&self, receiver: &Receiver, uc: f32, u: [f32; 2], textures: &Textures) -> Option<(u32, LightSample)> {
+        let (index, choice) = self.choose(receiver, uc, u)?;
+        let light = &self.lights[index as usize];
+        let mut sample = light.sample(receiver.p, u, textures)?;
         sample.pdf = match sample.pdf {
             Pdf::SolidAngle(pdf) => Pdf::SolidAngle(pdf * choice),
             Pdf::Discrete(probability) => Pdf::Discrete(probability * choice),
@@ -61,22 +56,29 @@ impl Lights {
         // Several environments are one: a direction meets all of them.
         if self.environments.len() > 1 && matches!(light, Light::Environment(_)) {
             sample.le = self.environment_le(sample.wi);
-            sample.pdf = Pdf::SolidAngle(self.environment_pdf(sample.wi));
+            sample.pdf = Pdf::SolidAngle(self.environment_pdf(receiver, sample.wi));
         }
-        Some((index as u32, sample))
+        Some((index, sample))
     }
 
-    /// Density over solid angle with which [`sample`](Self::sample) at `reference` draws the point `p`, with geometric
+    /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws the point `p`, with geometric
     /// normal `ng`, of area light number `light`.
     #[inline]
-    pub fn pdf_hit(&self, light: u32, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
-        self.choice(light) * self.lights[light as usize].pdf(reference, p, ng)
+    pub fn pdf_hit(&self, light: u32, receiver: &Receiver, p: Vec3, ng: Vec3) -> f32 {
+        self.choice(light, receiver) * self.lights[light as usize].pdf(receiver.p, p, ng)
     }
 
-    /// Probability with which this light is chosen.
+    /// The light that [`sample`](Self::sample) asks for these numbers, and its probability; `None` where no light reaches
+    /// the receiver.
     #[inline]
-    pub fn choice(&self, light: u32) -> f32 {
-        self.alias.as_ref().map_or(0.0, |alias| alias.probability(light as usize))
+    pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
+        self.choice.choose(receiver, uc, u)
+    }
+
+    /// Probability with which this light is chosen for the receiver.
+    #[inline]
+    pub fn choice(&self, light: u32, receiver: &Receiver) -> f32 {
+        self.choice.probability(receiver, light)
     }
 
     /// Radiance that area light number `light` emits at a point of it.
@@ -91,15 +93,15 @@ impl Lights {
         self.environments().map(|(_, environment)| environment.le(wi)).sum()
     }
 
-    /// Density over solid angle with which [`sample`](Self::sample) draws `wi` from the environments.
+    /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws `wi` from the environments.
     #[inline]
-    pub fn environment_pdf(&self, wi: Vec3) -> f32 {
-        self.environments().map(|(i, environment)| self.choice(i) * environment.pdf(wi)).sum()
+    pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3) -> f32 {
+        self.environments().map(|(i, environment)| self.choice(i, receiver) * environment.pdf(wi)).sum()
     }
 
     /// Whether there is nothing to sample.
     pub fn is_empty(&self) -> bool {
-        self.alias.is_none()
+        self.choice.is_empty()
     }
 
     /// The lights, in the order in which they are numbered.

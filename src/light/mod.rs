@@ -2,28 +2,34 @@
 //!
 //! A light answers three questions: what arrives at a point from a direction that was drawn towards it
 //! ([`Light::sample`]), how likely a direction that met it otherwise would have been drawn ([`Light::pdf`]), and what
-//! it emits where it was met ([`Light::le`]). [`Lights`] asks one of many, chosen by power.
+//! it emits where it was met ([`Light::le`]). [`Lights`] asks one of many: chosen by power where they are
+//! few, by a tree of what they can send ([`tree`]) where they are many.
 
 mod alias;
 mod area;
+mod choice;
 mod choose;
 mod directional;
 mod emitter;
 mod environment;
 mod point;
 mod quadric;
+mod receiver;
 mod specimens;
 mod spherical_triangle;
 mod spot;
+pub mod tree;
 mod triangle;
 
 pub use alias::Alias;
+pub use choice::Choice;
 pub use choose::Lights;
 pub use directional::DirectionalLight;
 pub use emitter::Emitter;
 pub use environment::{Environment, Texels};
 pub use point::PointLight;
 pub use quadric::QuadricLight;
+pub use receiver::{Facing, Receiver};
 pub use specimens::{Specimen, specimens};
 pub use spherical_triangle::SphericalTriangle;
 pub use spot::SpotLight;
@@ -36,6 +42,7 @@ use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use glam::{Vec2, Vec3, Vec4};
+use tree::LightBounds;
 
 /// Light drawn towards a point: Lₑ (or intensity over squared distance, or irradiance) that arrives from `wi`.
 #[derive(Clone, Copy, Debug)]
@@ -128,6 +135,17 @@ impl Light {
             Self::Spot(light) => light.power(),
             Self::Directional(light) => light.power(scene_radius),
             Self::Environment(light) => light.power(scene_radius),
+        }
+    }
+
+    /// Where it stands and where it shines to, its flux having the luminance `flux` > 0; `None` for light from infinity.
+    pub fn bounds(&self, flux: f64) -> Option<LightBounds> {
+        match self {
+            Self::Triangle(light) => Some(light.bounds(flux)),
+            Self::Quadric(light) => Some(light.bounds(flux)),
+            Self::Point(light) => Some(light.bounds(flux)),
+            Self::Spot(light) => Some(light.bounds()),
+            Self::Directional(_) | Self::Environment(_) => None,
         }
     }
 

@@ -1,6 +1,7 @@
 //! Isotropic point light.
 
 use super::LightSample;
+use super::tree::LightBounds;
 use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -28,6 +29,11 @@ impl PointLight {
     /// Φ = 4π I.
     pub fn power(&self) -> Spectrum {
         self.intensity * (4.0 * PI)
+    }
+
+    /// A point.
+    pub(super) fn bounds(&self, flux: f64) -> LightBounds {
+        LightBounds::round(self.position, self.position, flux / (4.0 * f64::from(PI)))
     }
 }
 

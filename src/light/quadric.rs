@@ -1,15 +1,17 @@
 //! Emissive sphere, disk or cylinder.
 
 use super::area::Sight;
+use super::tree::LightBounds;
 use super::{Emitter, LightSample};
 use crate::bsdf::Pdf;
 use crate::desc;
 use crate::math::Frame;
-use crate::shape::PlacedQuadric;
+use crate::shape::{PlacedQuadric, Quadric};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use crate::warp::{uniform_cone, uniform_cone_pdf};
 use glam::{DVec3, Vec3, Vec4};
+use std::f64::consts::PI;
 
 /// A quadric that emits. Spheres seen from outside are sampled uniformly over the cone that they fill; everything else
 /// (disks, cylinders, ellipsoids, spheres from inside) uniformly over the object's area.
@@ -88,6 +90,20 @@ impl QuadricLight {
     /// Flux \[W\]; `mean` is the average of a texture.
     pub fn power(&self, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
         self.emitter.power(self.shape.area() as f32, Vec4::ONE, mean)
+    }
+
+    /// Its box, and the intensity along its normal if it is a disk, or the mean one.
+    pub(super) fn bounds(&self, flux: f64) -> LightBounds {
+        let (min, max) = self.shape.bounds();
+        match self.shape.quadric {
+            Quadric::Disk { .. } => {
+                let both = self.emitter.emits(false);
+                let sides = if both { 2.0 } else { 1.0 };
+                let normal = self.shape.surface_at(&self.shape.quadric.sample_area([0.5; 2])).ng;
+                LightBounds::flat(min, max, normal, flux / (sides * PI), both)
+            }
+            Quadric::Sphere { .. } | Quadric::Cylinder { .. } => LightBounds::round(min, max, flux / (4.0 * PI)),
+        }
     }
 
     /// The sphere as seen from `reference`, with its radius; `None` from inside, and for what is no sphere.

@@ -2,6 +2,7 @@
 
 use super::LightSample;
 use super::point::sample_position;
+use super::tree::LightBounds;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -51,5 +52,19 @@ impl SpotLight {
     /// Φ = 2π I ((1 − cos inner) + (cos inner − cos outer)/3), the integral of the fall-off over the sphere.
     pub fn power(&self) -> Spectrum {
         self.intensity * (TAU * ((1.0 - self.cos_inner) + (self.cos_inner - self.cos_outer).max(0.0) / 3.0))
+    }
+
+    /// A point, and the cones.
+    pub(super) fn bounds(&self) -> LightBounds {
+        let (inner, outer) = (f64::from(self.cos_inner).acos(), f64::from(self.cos_outer).acos());
+        LightBounds {
+            min: self.position,
+            max: self.position,
+            axis: self.direction.as_dvec3(),
+            spread: inner,
+            fade: (outer - inner).max(0.0),
+            intensity: f64::from(self.intensity.luminance()).clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)),
+            both: false,
+        }
     }
 }

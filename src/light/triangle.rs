@@ -1,6 +1,7 @@
 //! Emissive triangle.
 
 use super::area::Sight;
+use super::tree::LightBounds;
 use super::{Emitter, LightSample, SphericalTriangle};
 use crate::bsdf::Pdf;
 use crate::desc;
@@ -12,6 +13,7 @@ use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use crate::warp::uniform_triangle;
 use glam::{DVec3, Vec2, Vec3, Vec4};
+use std::f32::consts::PI;
 
 /// Reference points nearer than this many radii of the triangle (about its centroid) sample it by solid angle, farther
 /// ones by area: from two radii above it cos θ/r² has a standard deviation of a tenth over the triangle, and area
@@ -102,6 +104,14 @@ impl TriangleLight {
         let colors = self.attributes.as_ref().and_then(|a| a.colors);
         let color = colors.map_or(Vec4::ONE, |[a, b, c]| (a + b + c) / 3.0);
         self.emitter.power(self.area, color, mean)
+    }
+
+    /// Its box and the intensity L A along its normal; the flux of a side is π L A.
+    pub(super) fn bounds(&self, flux: f64) -> LightBounds {
+        let [a, b, c] = self.p;
+        let both = self.emitter.emits(false);
+        let sides = if both { 2.0 } else { 1.0 };
+        LightBounds::flat(a.min(b).min(c), a.max(b).max(c), self.ng, flux / (sides * f64::from(PI)), both)
     }
 
     /// Where `ray` meets it.

@@ -2,6 +2,7 @@
 
 use super::Vertex;
 use crate::bsdf::Bsdf;
+use crate::light::{Facing, Receiver};
 use crate::material::Material;
 use crate::math::{Frame, Ray, offset_origin};
 use crate::texture::Textures;
@@ -35,6 +36,19 @@ impl<'a> Shading<'a> {
     #[inline]
     pub fn agrees(&self, vertex: &Vertex, wi: Vec3, local: Vec3) -> bool {
         wi.dot(vertex.surface.ng) * local.z > 0.0
+    }
+
+    /// Who asks for light here: the half-space above the shading normal on the side of `wo`, or both where something is
+    /// transmitted.
+    #[inline]
+    pub fn receiver(&self, vertex: &Vertex) -> Receiver {
+        let n = self.frame.n;
+        let facing = match (self.bsdf.transmits(), self.wo.z < 0.0) {
+            (true, _) => Facing::Both(n),
+            (false, true) => Facing::Half(-n),
+            (false, false) => Facing::Half(n),
+        };
+        Receiver { p: vertex.surface.p, facing }
     }
 
     /// The ray that leaves along `wi` (local), off the surface by its error bound; `None` where the direction is on

@@ -1,13 +1,13 @@
 //! D5: one light of many.
 //!
 //! The alias table's choices against the probabilities that it states, densities with the choice in them, and the sum of all
-//! lights' closed forms by samples of one at a time.
+//! lights' closed forms by samples of one at a time. The light tree's rows are in `tree`.
 
 use super::polygon::polygon;
 use super::{environment_light, quadric_light, rng, triangle_light};
 use crate::bsdf::Pdf;
 use crate::desc::{self, Sides};
-use crate::light::{Alias, Light, Lights};
+use crate::light::{Alias, Light, Lights, Receiver};
 use crate::math::Ray;
 use crate::shape::Quadric;
 use crate::stats::chi2_test;
@@ -21,16 +21,18 @@ use std::f64::consts::PI;
 const D5: Topic = Topic {
     id: "D5",
     title: "lights are chosen with the probability stated",
-    source: "Walker 1977; Vose 1991; rules of evidence, 'the density is the law'",
+    source: "Walker 1977; Vose 1991; Conty Estevez & Kulla 2018; rules of evidence, 'the density is the law'",
 };
 
 pub(super) fn tasks() -> Vec<Task> {
-    vec![
+    let mut tasks = vec![
         Task::new(D5, "choice among eight lights", choice),
         Task::new(D5, "alias tables", tables),
         Task::new(D5, "all lights together: E = Σ E of each", sum),
         Task::new(D5, "densities include the choice", densities),
-    ]
+    ];
+    tasks.extend(super::tree::tasks(D5));
+    tasks
 }
 
 /// The corners of the emissive triangle.
@@ -56,10 +58,10 @@ fn eight() -> Lights {
     Lights::new(lights.into_iter().flatten().collect(), (Vec3::ZERO, 3.0), &Textures::default())
 }
 
-/// χ² of the light chosen, counted through its samples at the origin, which all lights reach.
+/// χ² of the light chosen by power, counted through its samples at the origin, which all lights reach.
 fn choice(trial: &Trial, found: &mut Findings) {
-    let lights = eight();
-    let choices: Vec<f64> = (0..lights.all().len() as u32).map(|i| f64::from(lights.choice(i))).collect();
+    let (lights, receiver) = (eight().by_power(), Receiver::anywhere(Vec3::ZERO));
+    let choices: Vec<f64> = (0..lights.all().len() as u32).map(|i| f64::from(lights.choice(i, &receiver))).collect();
     found.checks.holds("eight lights", choices.len() == 8);
     found.checks.bound("probabilities add up to 1", (choices.iter().sum::<f64>() - 1.0).abs(), 0.0);
     let dark = |i: usize| lights.power(i as u32).is_black();
@@ -70,7 +72,7 @@ fn choice(trial: &Trial, found: &mut Findings) {
     let mut chosen = vec![0.0; choices.len()];
     for _ in 0..n {
         let u = [rng.random(), rng.random()];
-        if let Some((i, _)) = lights.sample(Vec3::ZERO, rng.random(), u, &Textures::default()) {
+        if let Some((i, _)) = lights.sample(&receiver, rng.random(), u, &Textures::default()) {
             chosen[i as usize] += 1.0;
         }
     }
@@ -119,7 +121,9 @@ fn sum(trial: &Trial, found: &mut Findings) {
         + PI * 0.2
         + polygon(&PATCH.map(|p| p.as_dvec3()), Vec3::Z.as_dvec3());
     let estimate = to_detect(trial, exact, 3e-3, trial.work(1 << 18, 1 << 20), |[a, b, c]: [f32; 3]| {
-        let Some((_, s)) = lights.sample(Vec3::ZERO, a, [b, c], &Textures::default()) else { return 0.0 };
+        let Some((_, s)) = lights.sample(&Receiver::anywhere(Vec3::ZERO), a, [b, c], &Textures::default()) else {
+            return 0.0;
+        };
         let (Pdf::SolidAngle(p) | Pdf::Discrete(p)) = s.pdf;
         f64::from(s.le.0.x * s.wi.z.max(0.0) / p)
     });
@@ -134,12 +138,14 @@ fn densities(trial: &Trial, found: &mut Findings) {
     let draws = trial.work(20_000, 400_000);
     for _ in 0..draws {
         let u = [rng.random(), rng.random()];
-        let Some((i, s)) = lights.sample(Vec3::ZERO, rng.random(), u, &Textures::default()) else { continue };
+        let Some((i, s)) = lights.sample(&Receiver::anywhere(Vec3::ZERO), rng.random(), u, &Textures::default()) else {
+            continue;
+        };
         let Pdf::SolidAngle(pdf) = s.pdf else { continue };
         let again = match &lights.all()[i as usize] {
-            Light::Environment(_) => lights.environment_pdf(s.wi),
+            Light::Environment(_) => lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), s.wi),
             light => match light.intersect(&Ray::new(Vec3::ZERO, s.wi)) {
-                Some((_, hit)) => lights.pdf_hit(i, Vec3::ZERO, hit.p, hit.ng),
+                Some((_, hit)) => lights.pdf_hit(i, &Receiver::anywhere(Vec3::ZERO), hit.p, hit.ng),
                 None => continue,
             },
         };

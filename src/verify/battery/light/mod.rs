@@ -8,6 +8,7 @@ mod polygon;
 mod punctual;
 mod quadric;
 mod specimens;
+mod tree;
 
 use crate::desc::{self, ColorParam, Emission, Sides};
 use crate::light::{Environment, Light, QuadricLight, TriangleLight};

@@ -1,0 +1,31 @@
+//! Who asks for light.
+
+use glam::Vec3;
+
+/// A point that light is drawn towards, with what is known of the directions that matter there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Receiver {
+    /// The point.
+    pub p: Vec3,
+    /// What it faces.
+    pub facing: Facing,
+}
+
+/// Directions from which light counts at a [`Receiver`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Facing {
+    /// All alike.
+    All,
+    /// The half-space of this unit vector, weighted by the cosine to it: what only reflects.
+    Half(Vec3),
+    /// Both sides, weighted by the cosine to this unit vector: what transmits too.
+    Both(Vec3),
+}
+
+impl Receiver {
+    /// A point that light reaches from all directions alike.
+    #[inline]
+    pub fn anywhere(p: Vec3) -> Self {
+        Self { p, facing: Facing::All }
+    }
+}
