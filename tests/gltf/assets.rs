@@ -14,9 +14,8 @@ const REFUSED: [(&str, &str); 5] = [
 ];
 
 /// What is used and noted by which file.
-const NOTED: [(&str, &str); 5] = [
+const NOTED: [(&str, &str); 4] = [
     ("AnisotropyStrengthTest.glb", "KHR_materials_anisotropy"),
-    ("AttenuationTest.glb", "attenuation is not honoured yet"),
     ("ClearCoatTest.glb", "KHR_materials_clearcoat"),
     ("SheenCloth.gltf", "KHR_materials_sheen"),
     ("SimpleInstancing.glb", "EXT_mesh_gpu_instancing"),

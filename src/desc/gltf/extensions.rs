@@ -6,8 +6,9 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 8] = [
+pub const HONOURED: [&str; 9] = [
     "KHR_lights_punctual",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",

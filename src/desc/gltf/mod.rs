@@ -26,6 +26,7 @@ mod container;
 mod dielectric;
 mod document;
 mod extensions;
+mod interior;
 mod light;
 mod material;
 mod mesh;
