@@ -39,6 +39,7 @@
 //! | 1 | [`warp`] | square to disk, hemisphere, cone, triangle, table; each with pdf and inverse |
 //! | 1 | [`stats`] | moments, standard errors, z, χ², Šidák |
 //! | 2 | [`bsdf`] | lobes: `sample`, `eval`, `pdf` |
+//! | 2 | [`medium`] | what is inside closed surfaces: absorption, index, nesting |
 //! | 2 | [`texture`] | constants, images, checkers |
 //! | 2 | [`shape`] | triangles and quadrics: intersect, sample |
 //! | 2 | [`desc`] | what the author wrote, and the readers of TOML, glTF, OBJ, PLY |
@@ -61,6 +62,7 @@ pub mod integrator;
 pub mod light;
 pub mod material;
 pub mod math;
+pub mod medium;
 pub mod render;
 pub mod sampler;
 pub mod scene;

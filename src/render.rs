@@ -272,14 +272,16 @@ impl<'a> Tracer<'a> {
         }
         let (index, count) = (settings.camera, scene.cameras.len());
         let camera = scene.cameras.get(index).ok_or(Error::Camera { index, count })?;
+        let camera = Camera::new(camera, settings.size);
         Ok(Self {
             method: Method {
                 scene,
                 integrator: settings.integrator,
                 strategy: settings.strategy,
                 max_depth: settings.max_depth.unwrap_or(u32::MAX),
+                inside: scene.inside(camera.middle()),
             },
-            camera: Camera::new(camera, settings.size),
+            camera,
             settings,
             sampler: match settings.sampler {
                 SamplerKind::Independent => sampler::Kind::Independent,

@@ -11,6 +11,7 @@ const LAYERS: &[(&str, u32)] = &[
     ("warp", 1),
     ("stats", 1),
     ("bsdf", 2),
+    ("medium", 2),
     ("texture", 2),
     ("shape", 2),
     ("desc", 2),

@@ -73,6 +73,11 @@ impl Camera {
         }
     }
 
+    /// Where it stands: the pinhole, the middle of the lens, or of the window of parallel rays.
+    pub fn middle(&self) -> Vec3 {
+        self.origin
+    }
+
     /// Whether [`ray`](Self::ray) looks at its `lens`.
     #[inline]
     pub fn has_lens(&self) -> bool {

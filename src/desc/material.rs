@@ -1,6 +1,6 @@
 //! Materials as written: parameters, textures, and what they mean; lobes are made of them in `material/`.
 
-use super::TextureRef;
+use super::{Interior, TextureRef};
 
 /// A surface material.
 #[derive(Clone, Debug, PartialEq)]
@@ -15,6 +15,8 @@ pub struct Material {
     pub normal_map: Option<NormalMap>,
     /// Coverage: what share of the surface is there at all.
     pub alpha: Alpha,
+    /// What its closed surfaces enclose, where it refracts.
+    pub interior: Interior,
     /// The back is shaded as the front (glTF). Opaque lobes are always two-sided in a path tracer; kept for reports.
     pub double_sided: bool,
 }
@@ -190,6 +192,13 @@ impl ScalarParam {
     }
 }
 
+impl MetallicRoughness {
+    /// Light passes into a volume behind the surface.
+    pub fn encloses(&self) -> bool {
+        self.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0)
+    }
+}
+
 impl Model {
     /// All its colours.
     fn colors_mut(&mut self) -> Vec<&mut ColorParam> {
@@ -215,6 +224,14 @@ impl Material {
 
     /// A material of this model, without emission, maps or holes.
     pub fn new(name: impl Into<String>, model: Model) -> Self {
-        Self { name: name.into(), model, emission: None, normal_map: None, alpha: Alpha::Opaque, double_sided: true }
+        Self {
+            name: name.into(),
+            model,
+            emission: None,
+            normal_map: None,
+            alpha: Alpha::Opaque,
+            interior: Interior::default(),
+            double_sided: true,
+        }
     }
 }

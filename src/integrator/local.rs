@@ -1,7 +1,8 @@
 //! Local illumination: emitted and direct light, L = Le + ∫ f Le |cos| dω, without recursion.
 
 use super::{
-    Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
+    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium, sees_lights,
+    strategy,
 };
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
@@ -14,20 +15,26 @@ use crate::spectrum::Spectrum;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
     let none = Classes::default();
+    let (mut inside, mut lane) = (method.inside.clone(), None);
     watch.ray();
-    let Some(vertex) = method.scene.intersect(ray, &mut || sampler.next_1d()) else {
-        sample.radiance = environment(method, ray, Drawn::Camera);
+    let met = method.scene.intersect_from(ray, &mut inside, &mut || sampler.next_1d());
+    let mut beta = medium::on_the_way(method, ray, met.as_ref(), &inside);
+    let Some(vertex) = met else {
+        sample.radiance = beta * environment(method, ray, Drawn::Camera);
         watch.light(sample.radiance, &none);
-        watch.escaped(0, ray, Spectrum::ONE);
+        watch.escaped(0, ray, beta);
         return sample;
     };
-    sample.radiance = emitted(method, &vertex, Drawn::Camera);
+    sample.radiance = beta * emitted(method, &vertex, Drawn::Camera);
     watch.light(sample.radiance, &none);
-    let shading = method.scene.shade(&vertex, &mut scratch);
-    watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
+    let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
+    beta *= factor;
+    let shading = method.scene.shade(&vertex, &interface, lane, &mut scratch);
+    watch.vertex(0, ray, &vertex, Some(&shading), beta);
     first_surface(&mut sample, ray, &vertex, &shading);
     if method.max_depth > 0 {
-        sample.radiance += reflected(method, &vertex, &shading, sampler, watch, Spectrum::ONE, none, |_| true);
+        let sides = Sides { here: &inside, across: &interface.across };
+        sample.radiance += beta * reflected(method, &vertex, &shading, sides, sampler, watch, beta, none, |_| true);
     }
     sample
 }
@@ -38,6 +45,7 @@ pub(super) fn reflected<O: Observer>(
     method: &Method,
     vertex: &Vertex,
     shading: &Shading,
+    sides: Sides,
     sampler: &mut Sampler,
     watch: &mut O,
     beta: Spectrum,
@@ -54,7 +62,7 @@ pub(super) fn reflected<O: Observer>(
 
     // By light.
     if sees_lights(shading.bsdf, scene) {
-        let (all, specular) = direct_light(method, vertex, shading, choose_light, u_light, watch);
+        let (all, specular) = direct_light(method, vertex, shading, sides, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }
@@ -66,12 +74,14 @@ pub(super) fn reflected<O: Observer>(
     if !keep(drawn) {
         return sum;
     }
+    let mut inside = sides.towards(shading.wo, next.wi).clone();
     watch.ray();
-    let le = match scene.intersect(&ray, &mut || sampler.next_1d()) {
-        Some(end) => emitted(method, &end, drawn),
+    let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
+    let le = match &met {
+        Some(end) => emitted(method, end, drawn),
         None => environment(method, &ray, drawn),
     };
-    let light = next.weight * le;
+    let light = next.weight * le * medium::on_the_way(method, &ray, met.as_ref(), &inside);
     watch.light(beta * light, &classes.reflected(next.weight, next.specular));
     sum + light
 }

@@ -11,6 +11,7 @@
 
 mod classes;
 pub mod local;
+mod medium;
 pub mod path;
 pub mod raycast;
 pub mod replay;
@@ -18,6 +19,7 @@ pub mod strategy;
 pub mod whitted;
 
 pub use classes::Classes;
+pub use medium::Sides;
 pub use strategy::Drawn;
 
 use crate::bsdf::{Bsdf, Pdf, Transport};
@@ -25,12 +27,13 @@ use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
 use crate::light::Receiver;
 use crate::math::Ray;
+use crate::medium::Inside;
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading, Vertex};
 use crate::spectrum::Spectrum;
 
 /// What an estimator needs to know beside the ray.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Method<'a> {
     /// What is traced.
     pub scene: &'a Scene,
@@ -40,6 +43,8 @@ pub struct Method<'a> {
     pub strategy: Strategy,
     /// Most reflections and refractions of a path.
     pub max_depth: u32,
+    /// The interiors about the camera.
+    pub inside: Inside,
 }
 
 /// Someone who watches a path: the split by transport class, a replay, a test. The estimators report each piece of
@@ -125,6 +130,7 @@ pub fn direct_light<O: Observer>(
     method: &Method,
     vertex: &Vertex,
     shading: &Shading,
+    sides: Sides,
     choice: f32,
     u: [f32; 2],
     watch: &mut O,
@@ -149,11 +155,15 @@ pub fn direct_light<O: Observer>(
         return NOTHING;
     }
     watch.ray();
-    let visible = scene.visibility(vertex, &light);
+    let inside = sides.towards(shading.wo, wi);
+    let visible = scene.visibility(vertex, &light, inside);
     if visible == 0.0 {
         return NOTHING;
     }
-    let arriving = light.le * (wi.z.abs() * share * visible);
+    let mut arriving = light.le * (wi.z.abs() * share * visible);
+    if !inside.is_empty() {
+        arriving *= scene.media.transmittance(inside, light.distance);
+    }
     (eval.f * arriving, eval.specular * arriving)
 }
 

@@ -1,7 +1,8 @@
 //! The path tracer: equation (2), recursion and all, by one random path a sample.
 
 use super::{
-    Classes, Drawn, Method, Observer, direct_light, emitted, environment, first_surface, sees_lights, strategy,
+    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium, sees_lights,
+    strategy,
 };
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
@@ -19,12 +20,15 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let mut sample = PixelSample::default();
     let (mut ray, mut drawn) = (*ray, Drawn::Camera);
     let (mut beta, mut eta_scale) = (Spectrum::ONE, 1.0);
+    let (mut inside, mut lane) = (method.inside.clone(), None);
     let mut classes = Classes::default();
     let mut scratch = Bsdf::new();
 
     for depth in 0.. {
         watch.ray();
-        let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
+        let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
+        beta *= medium::on_the_way(method, &ray, met.as_ref(), &inside);
+        let Some(vertex) = met else {
             let light = beta * environment(method, &ray, drawn);
             sample.radiance += light;
             watch.light(light, &classes);
@@ -37,7 +41,10 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         sample.radiance += light;
         watch.light(light, &classes);
 
-        let shading = scene.shade(&vertex, &mut scratch);
+        let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
+        beta *= factor;
+        let shading = scene.shade(&vertex, &interface, lane, &mut scratch);
+        let sides = Sides { here: &inside, across: &interface.across };
         watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
         if depth == 0 {
             first_surface(&mut sample, &ray, &vertex, &shading);
@@ -50,7 +57,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 
         // ∫ by light
         if sees_lights(shading.bsdf, scene) {
-            let (all, specular) = direct_light(method, &vertex, &shading, choose_light, u_light, watch);
+            let (all, specular) = direct_light(method, &vertex, &shading, sides, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {
@@ -65,6 +72,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         eta_scale *= next.eta * next.eta;
         drawn = Drawn::new(next.pdf, shading.receiver(&vertex));
         ray = leaving;
+        inside = sides.towards(shading.wo, next.wi).clone();
         watch.drawn(drawn, beta);
         if O::CLASSES {
             classes = classes.reflected(next.weight, next.specular);

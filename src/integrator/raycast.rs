@@ -1,26 +1,29 @@
 //! Ray casting: nothing scatters (ρ = 0), so L = Le of the first surface. Surfaces that carry a pre-assigned colour
 //! (glTF's unlit materials) emit it.
 
-use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface};
+use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface, medium};
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
-use crate::spectrum::Spectrum;
 
 /// L = Le.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
+    let mut inside = method.inside.clone();
     watch.ray();
-    match method.scene.intersect(ray, &mut || sampler.next_1d()) {
+    let met = method.scene.intersect_from(ray, &mut inside, &mut || sampler.next_1d());
+    let beta = medium::on_the_way(method, ray, met.as_ref(), &inside);
+    match met {
         None => {
-            sample.radiance = environment(method, ray, Drawn::Camera);
-            watch.escaped(0, ray, Spectrum::ONE);
+            sample.radiance = beta * environment(method, ray, Drawn::Camera);
+            watch.escaped(0, ray, beta);
         }
         Some(vertex) => {
-            sample.radiance = emitted(method, &vertex, Drawn::Camera);
-            let shading = method.scene.shade(&vertex, &mut scratch);
-            watch.vertex(0, ray, &vertex, Some(&shading), Spectrum::ONE);
+            sample.radiance = beta * emitted(method, &vertex, Drawn::Camera);
+            let (interface, _) = medium::interface(method, &vertex, &inside, &mut Some(1), beta, sampler);
+            let shading = method.scene.shade(&vertex, &interface, Some(1), &mut scratch);
+            watch.vertex(0, ray, &vertex, Some(&shading), beta);
             first_surface(&mut sample, ray, &vertex, &shading);
         }
     }

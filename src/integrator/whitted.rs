@@ -2,7 +2,7 @@
 //! of each surface. It sums the paths whose reflections are all perfect but the one next to the light.
 
 use super::local::reflected;
-use super::{Classes, Drawn, Method, Observer, emitted, environment, first_surface, strategy};
+use super::{Classes, Drawn, Method, Observer, Sides, emitted, environment, first_surface, medium, strategy};
 use crate::bsdf::{Bsdf, Transport};
 use crate::film::PixelSample;
 use crate::math::Ray;
@@ -16,11 +16,13 @@ const FAINT: f32 = 0.05;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let scene = method.scene;
     let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
-    let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default())];
-    while let Some((ray, drawn, beta, classes)) = branches.pop() {
+    let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default(), method.inside.clone(), None)];
+    while let Some((ray, drawn, mut beta, classes, mut inside, mut lane)) = branches.pop() {
         watch.ray();
         let depth = classes.reflections();
-        let Some(vertex) = scene.intersect(&ray, &mut || sampler.next_1d()) else {
+        let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
+        beta *= medium::on_the_way(method, &ray, met.as_ref(), &inside);
+        let Some(vertex) = met else {
             let light = beta * environment(method, &ray, drawn);
             sample.radiance += light;
             watch.light(light, &classes);
@@ -30,7 +32,10 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let light = beta * emitted(method, &vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
-        let shading = scene.shade(&vertex, &mut scratch);
+        let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
+        beta *= factor;
+        let shading = scene.shade(&vertex, &interface, lane, &mut scratch);
+        let sides = Sides { here: &inside, across: &interface.across };
         watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
         if depth == 0 {
             first_surface(&mut sample, &ray, &vertex, &shading);
@@ -42,7 +47,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         // The smooth lobes: local light.
         if shading.bsdf.has_smooth() {
             let smooth = |drawn| matches!(drawn, Drawn::Smooth { .. });
-            let local = reflected(method, &vertex, &shading, sampler, watch, beta, classes, smooth);
+            let local = reflected(method, &vertex, &shading, sides, sampler, watch, beta, classes, smooth);
             sample.radiance += beta * local;
         }
 
@@ -55,7 +60,8 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
                 continue;
             }
             beta *= 1.0 / survival;
-            branches.push((ray, Drawn::Delta, beta, classes.reflected(next.weight, next.specular)));
+            let inside = sides.towards(shading.wo, next.wi).clone();
+            branches.push((ray, Drawn::Delta, beta, classes.reflected(next.weight, next.specular), inside, lane));
         }
     }
     sample

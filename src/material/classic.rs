@@ -32,8 +32,9 @@ impl Dielectric {
     #[inline]
     pub(super) fn lobe(&self, at: Point) -> Lobe {
         let tint = param::share(&self.tint, at);
-        match self.rough.at(self.eta, tint, at) {
-            None => Lobe::SmoothDielectric(SmoothDielectric { eta: self.eta, tint }),
+        let eta = at.eta.unwrap_or(self.eta);
+        match self.rough.at(eta, tint, at) {
+            None => Lobe::SmoothDielectric(SmoothDielectric { eta, tint }),
             Some(lobe) => Lobe::RoughDielectric(lobe),
         }
     }

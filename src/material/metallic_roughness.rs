@@ -34,9 +34,8 @@ impl MetallicRoughness {
         let roughness = desc::Roughness::Perceptual(desc.roughness);
         let n = desc.ior;
         // An index of 0 stands for infinity.
-        let f0 = if n > 0.0 { ((n - 1.0) / (n + 1.0)).powi(2) } else { 1.0 };
-        let volume = desc.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0);
-        let interface = volume.then(|| Dielectric::new(n, roughness, desc.base_color));
+        let f0 = if n > 0.0 { normal_reflectance(n) } else { 1.0 };
+        let interface = desc.encloses().then(|| Dielectric::new(n, roughness, desc.base_color));
         Self { desc: desc.clone(), micro: Microsurface::new(roughness), f0, interface }
     }
 
@@ -58,7 +57,8 @@ impl MetallicRoughness {
         let metallic = param::scalar(&d.metallic, at);
         let transmission = d.transmission.as_ref().map_or(0.0, |t| param::scalar(&t.factor, at));
         let specular = param::scalar(&d.specular, at);
-        let f0 = (param::color(&d.specular_color, at) * self.f0).min(Spectrum::ONE) * specular;
+        let f0 = at.eta.map_or(self.f0, normal_reflectance);
+        let f0 = (param::color(&d.specular_color, at) * f0).min(Spectrum::ONE) * specular;
         let f90 = Spectrum::splat(specular);
         let micro = self.micro.at(at);
 
@@ -97,4 +97,9 @@ impl MetallicRoughness {
             push(lobe, dielectric * through);
         }
     }
+}
+
+/// ((n − 1)/(n + 1))² of a relative index.
+fn normal_reflectance(n: f32) -> f32 {
+    ((n - 1.0) / (n + 1.0)).powi(2)
 }

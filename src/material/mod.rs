@@ -4,6 +4,7 @@
 //! parameters and textures, `roughness` holds microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
 
 mod classic;
+mod interior;
 mod metallic_roughness;
 pub mod param;
 mod roughness;
@@ -16,6 +17,7 @@ use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use classic::{Conductor, Dielectric};
 use glam::{Vec2, Vec3, Vec4};
+pub use interior::interior;
 use metallic_roughness::MetallicRoughness;
 use param::Point;
 
@@ -23,6 +25,8 @@ use param::Point;
 #[derive(Clone, Debug)]
 pub struct Material {
     scattering: Scattering,
+    /// The same for interfaces to something other than vacuum; where it has an interior.
+    between: Option<Scattering>,
     emission: Option<Emission>,
     normal_map: Option<NormalMap>,
     alpha: Alpha,
@@ -88,6 +92,10 @@ impl Material {
         let mut parts = Vec::new();
         flatten(&m.model, 1.0, &mut parts);
         parts.sort_by(|a, b| b.0.total_cmp(&a.0));
+        let between = interior(m).map(|_| Scattering::Sum(parts.clone()));
+        for (_, part) in &mut parts {
+            *part = std::mem::replace(part, Part::Fixed(Vec::new())).fixed();
+        }
         let scattering = match parts.as_slice() {
             [] => Scattering::Absorb,
             [(1.0, Part::Fixed(lobes))] if matches!(lobes.as_slice(), [(_, 1.0)]) => {
@@ -95,20 +103,37 @@ impl Material {
             }
             _ => Scattering::Sum(parts),
         };
-        Self { scattering, emission: m.emission, normal_map: m.normal_map, alpha: m.alpha }
+        Self { scattering, between, emission: m.emission, normal_map: m.normal_map, alpha: m.alpha }
     }
 
     /// Lobes at a hit: the material's own, or those that vary over the surface, put into `scratch`. `wo`, in the local
     /// shading frame, decides how often each is chosen, and nothing else.
     #[inline]
     pub fn bsdf<'a>(&'a self, s: &Surface, wo: Vec3, textures: &Textures, scratch: &'a mut Bsdf) -> &'a Bsdf {
-        match &self.scattering {
+        self.bsdf_between(s, wo, textures, None, scratch)
+    }
+
+    /// The same where the index of what the surface encloses over what is before it is `eta`, not the material's own.
+    #[inline]
+    pub fn bsdf_between<'a>(
+        &'a self,
+        s: &Surface,
+        wo: Vec3,
+        textures: &Textures,
+        eta: Option<f32>,
+        scratch: &'a mut Bsdf,
+    ) -> &'a Bsdf {
+        let scattering = match (&self.between, eta) {
+            (Some(between), Some(_)) => between,
+            _ => &self.scattering,
+        };
+        match scattering {
             Scattering::Single(bsdf) => bsdf,
             Scattering::Absorb => {
                 scratch.clear();
                 scratch
             }
-            Scattering::Sum(parts) => sum(parts, Point { uv: &s.uv, color: s.color, textures }, wo, scratch),
+            Scattering::Sum(parts) => sum(parts, Point { uv: &s.uv, color: s.color, textures, eta }, wo, scratch),
         }
     }
 
@@ -117,7 +142,7 @@ impl Material {
     pub fn emission(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
         match &self.emission {
             None => Spectrum::ZERO,
-            Some(emission) => param::emitted(emission, front, Point { uv, color, textures }),
+            Some(emission) => param::emitted(emission, front, Point { uv, color, textures, eta: None }),
         }
     }
 
@@ -129,7 +154,7 @@ impl Material {
     /// Probability that the surface is there: 1 where opaque, 0 or 1 for masks, coverage × vertex alpha in between.
     #[inline]
     pub fn coverage(&self, uv: &[Vec2; 2], color: Vec4, textures: &Textures) -> f32 {
-        let at = Point { uv, color, textures };
+        let at = Point { uv, color, textures, eta: None };
         let vertex = if color.w.is_finite() { color.w.clamp(0.0, 1.0) } else { 1.0 };
         match &self.alpha {
             Alpha::Opaque => 1.0,
@@ -202,6 +227,6 @@ fn flatten(model: &desc::Model, weight: f32, parts: &mut Vec<(f32, Part)>) {
         desc::Model::MetallicRoughness(m) => Part::MetallicRoughness(Box::new(MetallicRoughness::new(m))),
     };
     if weight > 0.0 {
-        parts.push((weight, part.fixed()));
+        parts.push((weight, part));
     }
 }

@@ -14,11 +14,14 @@ pub struct Point<'a> {
     pub color: Vec4,
     /// The scene's textures.
     pub textures: &'a Textures,
+    /// Index of what the surface encloses over what is really before it, where that is not the material's own over
+    /// vacuum: in another medium, or of one lane of a dispersive one.
+    pub eta: Option<f32>,
 }
 
 /// Evaluates what is the same everywhere.
 pub(super) fn nowhere<T>(f: impl FnOnce(Point) -> T) -> T {
-    f(Point { uv: &[Vec2::ZERO; 2], color: Vec4::ONE, textures: &Textures::default() })
+    f(Point { uv: &[Vec2::ZERO; 2], color: Vec4::ONE, textures: &Textures::default(), eta: None })
 }
 
 /// The same everywhere.

@@ -71,38 +71,62 @@ impl Microsurface {
 
 /// The microsurface of a dielectric interface.
 #[derive(Clone, Debug)]
-pub(super) enum RoughInterface {
+pub(super) struct RoughInterface {
+    roughness: Roughness,
+    own: Own,
+}
+
+/// The lobe of the material's own index.
+#[derive(Clone, Debug)]
+enum Own {
     /// None anywhere.
     Smooth,
     /// The same everywhere.
     Fixed(Box<RoughDielectric>),
     /// Of a texture.
-    Varying(Roughness, DielectricTables),
+    Varying(DielectricTables),
 }
 
 impl RoughInterface {
     pub(super) fn new(eta: f32, roughness: Roughness) -> Self {
-        match fixed(&roughness) {
-            _ if (eta - 1.0).abs() < SAME_INDEX => Self::Smooth,
-            Some(Fixed::Smooth) => Self::Smooth,
-            Some(Fixed::Rough(alpha)) => Self::Fixed(Box::new(RoughDielectric::new(alpha, eta, Spectrum::ONE))),
-            None => Self::Varying(roughness, DielectricTables::new(eta)),
-        }
+        let own = match fixed(&roughness) {
+            _ if is_no_interface(eta) => Own::Smooth,
+            Some(Fixed::Smooth) => Own::Smooth,
+            Some(Fixed::Rough(alpha)) => Own::Fixed(Box::new(RoughDielectric::new(alpha, eta, Spectrum::ONE))),
+            None => Own::Varying(DielectricTables::new(eta)),
+        };
+        Self { roughness, own }
     }
 
     pub(super) fn is_constant(&self) -> bool {
-        !matches!(self, Self::Varying(..))
+        !matches!(self.own, Own::Varying(..))
     }
 
     /// `None` where the surface is smooth.
     #[inline]
     pub(super) fn at(&self, eta: f32, tint: Spectrum, at: Point) -> Option<RoughDielectric> {
-        match self {
-            Self::Smooth => None,
-            Self::Fixed(lobe) => Some(lobe.with_tint(tint)),
-            Self::Varying(roughness, tables) => {
-                alpha(roughness, at).map(|[a, _]| RoughDielectric::isotropic(a, eta, tint, tables))
+        if at.eta.is_some() {
+            return self.between(eta, tint, at);
+        }
+        match &self.own {
+            Own::Smooth => None,
+            Own::Fixed(lobe) => Some(lobe.with_tint(tint)),
+            Own::Varying(tables) => {
+                alpha(&self.roughness, at).map(|[a, _]| RoughDielectric::isotropic(a, eta, tint, tables))
             }
         }
     }
+
+    /// The lobe of another index: its tables are looked up, and computed the first time.
+    #[inline(never)]
+    fn between(&self, eta: f32, tint: Spectrum, at: Point) -> Option<RoughDielectric> {
+        if is_no_interface(eta) {
+            return None;
+        }
+        alpha(&self.roughness, at).map(|alpha| RoughDielectric::new(alpha, eta, tint))
+    }
+}
+
+fn is_no_interface(eta: f32) -> bool {
+    (eta - 1.0).abs() < SAME_INDEX
 }

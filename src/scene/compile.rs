@@ -1,7 +1,7 @@
 //! `desc::Scene` → [`Scene`].
 
 use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
-use super::{Info, Scene};
+use super::{Info, Media, Scene};
 use crate::bvh::TriangleBvh;
 use crate::desc::{self, Error, Mesh, Object, Shape};
 use crate::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
@@ -61,6 +61,7 @@ impl Scene {
         Ok(Self {
             geometry,
             has_holes: compiled.iter().any(Material::has_holes),
+            media: Media::new(&materials),
             materials: compiled,
             textures,
             lights,

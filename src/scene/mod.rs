@@ -3,10 +3,12 @@
 mod compile;
 mod geometry;
 mod info;
+mod media;
 mod shading;
 
 pub use geometry::{Geometry, Hit};
 pub use info::Info;
+pub use media::{Interface, Media};
 pub use shading::Shading;
 
 use crate::bsdf::Bsdf;
@@ -14,6 +16,7 @@ use crate::desc;
 use crate::light::{LightSample, Lights};
 use crate::material::Material;
 use crate::math::{Ray, offset_origin};
+use crate::medium::Inside;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -34,6 +37,8 @@ pub struct Scene {
     emitters: Vec<Option<u32>>,
     /// Cameras as written: the resolution decides how they become rays.
     pub cameras: Vec<desc::Camera>,
+    /// What the materials enclose.
+    pub media: Media,
     /// Some material has holes, so that a shadow ray must look at what it meets.
     has_holes: bool,
     info: Info,
@@ -55,38 +60,54 @@ pub struct Vertex {
 }
 
 impl Scene {
-    /// The nearest surface along a ray of unit direction. Where a material has holes the ray passes with probability
+    /// The nearest surface along a ray of unit direction, whatever lies inside what. Where a material has holes the ray passes with probability
     /// 1 − coverage; `u` gives the numbers in [0, 1) that decide.
     #[inline]
     pub fn intersect(&self, ray: &Ray, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
+        self.intersect_from(ray, &mut Inside::default(), u)
+    }
+
+    /// The same for a ray that begins `inside` interiors, and learns of those that it enters and leaves behind surfaces
+    /// that are hidden in others. What is there stays the same all along.
+    #[inline]
+    pub fn intersect_from(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
         let mut ray = *ray;
         loop {
             let hit = self.geometry.nearest(&ray)?;
             let vertex = self.vertex(&ray, &hit);
-            if !self.has_holes {
+            if !self.has_holes && inside.is_empty() {
                 return Some(vertex);
             }
-            let coverage = self.coverage(&vertex);
-            if coverage >= 1.0 || u() < coverage {
-                return Some(vertex);
+            match self.media.hidden(inside, &vertex) {
+                Some(across) => *inside = across,
+                None => {
+                    let coverage = self.coverage(&vertex);
+                    if coverage >= 1.0 || u() < coverage {
+                        return Some(vertex);
+                    }
+                }
             }
             ray = self.beyond(&ray, &vertex);
         }
     }
 
-    /// Share of light that arrives at `vertex`: 0 or 1, or between where the way leads through holes.
+    /// Share of light that arrives at `vertex`, on its side where the interiors are `inside`: 0 or 1, or between where
+    /// the way leads through holes.
     #[inline]
-    pub fn visibility(&self, vertex: &Vertex, light: &LightSample) -> f32 {
+    pub fn visibility(&self, vertex: &Vertex, light: &LightSample, inside: &Inside) -> f32 {
         let s = &vertex.surface;
         let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
         let mut ray = Ray { o, d: light.wi, t_max: light.distance };
-        if !self.has_holes {
+        if !self.has_holes && inside.is_empty() {
             return if self.geometry.occluded(&ray) { 0.0 } else { 1.0 };
         }
-        let mut share = 1.0;
+        let (mut share, mut inside) = (1.0, inside.clone());
         while let Some(hit) = self.geometry.nearest(&ray) {
             let vertex = self.vertex(&ray, &hit);
-            share *= 1.0 - self.coverage(&vertex);
+            match self.media.hidden(&inside, &vertex) {
+                None => share *= 1.0 - self.coverage(&vertex),
+                Some(across) => inside = across,
+            }
             if share <= 0.0 {
                 return 0.0;
             }
@@ -98,10 +119,18 @@ impl Scene {
         share
     }
 
-    /// Frame, lobes and local `wo` at a vertex; `scratch` holds lobes that vary over the surface.
+    /// Frame, lobes and local `wo` at a vertex between the media of `interface`, of `lane` where the path has chosen
+    /// one; `scratch` holds lobes that vary over the surface.
     #[inline]
-    pub fn shade<'a>(&'a self, vertex: &Vertex, scratch: &'a mut Bsdf) -> Shading<'a> {
-        Shading::new(&self.materials[vertex.material as usize], vertex, &self.textures, scratch)
+    pub fn shade<'a>(
+        &'a self,
+        vertex: &Vertex,
+        interface: &Interface,
+        lane: Option<usize>,
+        scratch: &'a mut Bsdf,
+    ) -> Shading<'a> {
+        let eta = self.media.eta(interface, lane);
+        Shading::between(&self.materials[vertex.material as usize], vertex, &self.textures, eta, scratch)
     }
 
     /// Le towards where the ray came from.

@@ -23,12 +23,24 @@ impl<'a> Shading<'a> {
     /// Evaluates the material; lobes that vary over the surface are put into `scratch`.
     #[inline]
     pub fn new(material: &'a Material, vertex: &Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
+        Self::between(material, vertex, textures, None, scratch)
+    }
+
+    /// The same where the index behind the surface over the one before it is `eta`, not the material's own.
+    #[inline]
+    pub fn between(
+        material: &'a Material,
+        vertex: &Vertex,
+        textures: &Textures,
+        eta: Option<f32>,
+        scratch: &'a mut Bsdf,
+    ) -> Self {
         let s = &vertex.surface;
         let ns = material.shading_normal(s, textures).unwrap_or(s.ns);
         let ns = facing(ns, vertex.wo, vertex.front);
         let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
         let wo = frame.to_local(vertex.wo);
-        Self { frame, wo, bsdf: material.bsdf(s, wo, textures, scratch) }
+        Self { frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch) }
     }
 
     /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the

@@ -5,6 +5,10 @@ use glam::Vec4;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};
 
+/// Wavelength \[nm\] that stands for each lane where physics needs one: the dominant wavelengths of BT.709's primaries
+/// against D65.
+pub const WAVELENGTHS: [f64; 4] = [611.4, 549.1, 464.2, 549.1];
+
 /// A radiance, reflectance or weight in four lanes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Spectrum(pub Vec4);
@@ -32,6 +36,13 @@ impl Spectrum {
     pub const fn to_rgb(self) -> [f32; 3] {
         let [r, g, b, _] = self.0.to_array();
         [r, g, b]
+    }
+
+    /// These lanes where the wavelength is that of lane `lane`, 0 elsewhere.
+    #[inline]
+    pub fn only(self, lane: usize) -> Self {
+        let own = WAVELENGTHS.map(|lambda| if lambda == WAVELENGTHS[lane] { 1.0 } else { 0.0 });
+        Self(self.0 * Vec4::from_array(own))
     }
 
     /// Luminance Y of BT.709: relative, or in the unit of the lanes.

@@ -17,7 +17,6 @@ const REFUSED: &[(&str, &str)] = &[
 /// What is used and noted by which file.
 const NOTED: &[(&str, &str)] = &[
     ("AnisotropyStrengthTest.glb", "KHR_materials_anisotropy"),
-    ("AttenuationTest.glb", "attenuation is not honoured yet"),
     ("ClearCoatTest.glb", "KHR_materials_clearcoat"),
     ("SheenCloth.gltf", "KHR_materials_sheen"),
     ("SimpleInstancing.glb", "EXT_mesh_gpu_instancing"),

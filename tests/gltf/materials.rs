@@ -1,7 +1,10 @@
 //! Materials and their extensions.
 
 use super::document::{Document, noted};
-use radianza::desc::{Alpha, ColorParam, Material, MetallicRoughness, Model, ScalarParam, Scene, Sides, TextureRef};
+use radianza::desc::{
+    Alpha, ColorParam, Dispersion, Error, Interior, Material, MetallicRoughness, Model, ScalarParam, Scene, Sides,
+    TextureRef,
+};
 use radianza::glam::Affine2;
 use serde_json::{Value, json};
 
@@ -152,12 +155,35 @@ fn transmission_is_thin_without_a_volume() {
     assert!(!thin && scene.notes.is_empty(), "{:?}", scene.notes);
     let (scene, thin) =
         with(json!({ "thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [0.5, 1, 1] }));
-    assert!(!thin && noted(&scene, "attenuation is not honoured yet"), "{:?}", scene.notes);
+    assert!(!thin && scene.notes.is_empty(), "{:?}", scene.notes);
+    let [r, g, b] = scene.materials[0].interior.absorption;
+    assert!((r - 0.5 * 2f32.ln()).abs() < 1e-7 && [g, b] == [0.0, 0.0], "{r} {g} {b}");
 
     let none = read(
         json!({ "extensions": { "KHR_materials_transmission": {}, "KHR_materials_volume": { "thicknessFactor": 1 } } }),
     );
     assert_eq!(pbr(&none.1).transmission, None);
+}
+
+#[test]
+fn an_interior_is_what_volume_and_dispersion_say() {
+    let of = |volume: Value, dispersion: Value| {
+        Document::material(json!({ "extensions": {
+            "KHR_materials_volume": volume, "KHR_materials_dispersion": dispersion } }))
+        .read()
+        .map(|scene| scene.materials[0].interior)
+    };
+    let clear = of(json!({ "thicknessFactor": 1 }), json!({ "dispersion": 0 })).unwrap();
+    assert_eq!(clear, Interior::default());
+    let flint = of(json!({}), json!({ "dispersion": 0.5 })).unwrap();
+    assert_eq!(flint.dispersion, Dispersion::InverseAbbe(0.025));
+    let black = of(json!({ "attenuationDistance": 1, "attenuationColor": [0, 0, 0] }), json!({})).unwrap();
+    assert_eq!(black.absorption, [f32::MAX; 3]);
+    let pointer = |e: Result<Interior, Error>| e.unwrap_err().place;
+    let volume = "/materials/0/extensions/KHR_materials_volume/attenuationDistance";
+    assert_eq!(pointer(of(json!({ "attenuationDistance": 0 }), json!({}))), volume);
+    let dispersion = "/materials/0/extensions/KHR_materials_dispersion/dispersion";
+    assert_eq!(pointer(of(json!({}), json!({ "dispersion": "much" }))), dispersion);
 }
 
 #[test]

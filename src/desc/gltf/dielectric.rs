@@ -1,7 +1,7 @@
 //! The dielectric side of a material: KHR_materials_ior, _specular, _transmission and _volume.
 
 use super::Reader;
-use crate::desc::{ColorParam, Error, ScalarParam, Transmission};
+use crate::desc::{ColorParam, Error, Interior, ScalarParam, Transmission};
 use gltf::json::extensions::material;
 
 /// What the four extensions say, or their defaults.
@@ -10,6 +10,7 @@ pub(super) struct Dielectric {
     pub specular: ScalarParam,
     pub specular_color: ColorParam,
     pub transmission: Option<Transmission>,
+    pub interior: Interior,
 }
 
 impl Reader<'_> {
@@ -20,8 +21,10 @@ impl Reader<'_> {
             specular: ScalarParam::constant(1.0),
             specular_color: ColorParam::constant([1.0; 3]),
             transmission: None,
+            interior: Interior::default(),
         };
         let Some(e) = e else { return Ok(dielectric) };
+        dielectric.interior = self.interior(e, place)?;
         let at = |name: &str, key: &str| format!("{place}/extensions/KHR_materials_{name}/{key}");
 
         // 0 is a code for total reflection; below 1 there is nothing else.
@@ -67,9 +70,6 @@ impl Reader<'_> {
         }
         if volume.thickness_texture.is_some() {
             self.notes.at(&place, "thickness textures are ignored: the mesh itself says how thick it is");
-        }
-        if volume.attenuation_distance.0.is_finite() && volume.attenuation_color.0 != [1.0; 3] {
-            self.notes.at(&place, "`KHR_materials_volume`: attenuation is not honoured yet; the volume is clear");
         }
         Ok(false)
     }

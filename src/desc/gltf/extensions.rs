@@ -6,9 +6,10 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 10] = [
+pub const HONOURED: &[&str] = &[
     "EXT_texture_webp",
     "KHR_lights_punctual",
+    "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",

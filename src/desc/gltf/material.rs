@@ -4,7 +4,8 @@ use super::Reader;
 use super::slot::Slot;
 use super::uv_sets::UvSets;
 use crate::desc::{
-    Alpha, ColorParam, Emission, Error, Material, MetallicRoughness, Model, NormalMap, ScalarParam, Sides, TextureRef,
+    Alpha, ColorParam, Emission, Error, Interior, Material, MetallicRoughness, Model, NormalMap, ScalarParam, Sides,
+    TextureRef,
 };
 use gltf::json;
 use json::material::AlphaMode;
@@ -61,8 +62,9 @@ impl Reader<'_> {
                 return Err(self.source.invalid(format!("{place}/alphaMode"), message));
             }
         };
+        let (interior, double_sided) = (Interior::default(), m.double_sided);
         let surface =
-            |model, emission| Material { name, model, emission, normal_map: None, alpha, double_sided: m.double_sided };
+            |model, emission| Material { name, model, emission, normal_map: None, alpha, interior, double_sided };
 
         // KHR_materials_unlit: the base colour as it is, whatever the light.
         if extensions.is_some_and(|e| e.unlit.is_some()) {
@@ -94,7 +96,7 @@ impl Reader<'_> {
         }
         let emission = self.emission(m, place)?;
         let normal_map = self.normal_map(m.normal_texture.as_ref(), &format!("{place}/normalTexture"))?;
-        Ok(Material { normal_map, ..surface(model, emission) })
+        Ok(Material { normal_map, interior: dielectric.interior, ..surface(model, emission) })
     }
 
     /// Le = factor × texture × KHR_materials_emissive_strength; `None` where that is black.

@@ -28,6 +28,7 @@ mod dielectric;
 mod document;
 mod extensions;
 mod image;
+mod interior;
 mod light;
 mod material;
 mod mesh;

@@ -5,7 +5,7 @@ use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
 use crate::desc::files::Folder;
-use crate::desc::{Emission, Image, Light, Material, Mesh, Model, Object, Scene, TextureRef};
+use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Scene, TextureRef};
 use crate::desc::{image_file, load, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
@@ -212,6 +212,11 @@ impl<'a> Builder<'a> {
         if entry.value.is_more_than_a_model() {
             let message =
                 format!("`{}` has an emission, opacity or normal map, which a mixture cannot honour", entry.name);
+            return Err(Fault::new(&name.at, message));
+        }
+        if entry.value.kind.interior()? != Interior::default() {
+            let message =
+                format!("`{}` has an absorption, priority or dispersion, which a mixture cannot honour", entry.name);
             return Err(Fault::new(&name.at, message));
         }
         self.enter("material", index, &entry.name, &name.at)?;

@@ -2,12 +2,13 @@
 
 use super::build::Builder;
 use super::color::{Radiance, Reflectance, Scalar};
+use super::interior::{self, InteriorTable};
 use super::keys::{keys, one_of};
 use super::metals;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Number, Positive, Read, mismatch, suggest, words};
 use super::schema::Defs;
 use crate::desc::{
-    Alpha, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
+    Alpha, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
     Transmission,
 };
 use ::toml::de::DeValue;
@@ -62,14 +63,17 @@ keys! {
 keys! {
     /// Clear interface that reflects and refracts: glass, water.
     struct Dielectric {
-        /// Index of refraction behind the surface over the one before it. Default 1.5.
-        ior: Positive = Positive(1.5),
+        /// Index of refraction behind the surface, over vacuum; what the surface lies in is known from the path. Default 1.5.
+        ior: Option<At<Positive>>,
+        /// In place of it: [A, B] of Cauchy's formula n = A + B/wavelength², B in µm².
+        cauchy: Option<At<[Number; 2]>>,
         /// Perceptual roughness in [0, 1] (GGX alpha is its square), a number or a texture. Default 0: smooth.
         roughness: Option<Scalar>,
         /// GGX alpha, a number or [along the tangent, along the bitangent], in place of the roughness.
         alpha: Option<At<AlphaValue>>,
         /// Factor on what is transmitted, each channel in [0, 1]. Default 1.
         tint: Reflectance = Reflectance::Constant([Fraction(1.0); 3]),
+        ..interior: InteriorTable,
     }
 }
 
@@ -128,6 +132,7 @@ keys! {
         transmission: Option<Scalar>,
         /// Whether what passes goes straight on, as through a thin sheet, or is refracted. Default true.
         thin: bool = true,
+        ..interior: InteriorTable,
     }
 }
 
@@ -206,6 +211,7 @@ impl MaterialTable {
         b: &mut Builder<'_>,
     ) -> Result<Material, Fault> {
         let mut material = Material::new(name, self.kind.build(at, b)?);
+        material.interior = self.kind.interior()?;
         if let Some(radiance) = &self.emission {
             material.emission = Some(Emission { radiance: radiance.build(b)?, sides: self.emission_sides });
         }
@@ -236,7 +242,8 @@ impl MaterialKind {
             Self::Mirror(m) => Model::Mirror { reflectance: m.reflectance.build(b)? },
             Self::Dielectric(m) => {
                 let roughness = roughness(m.roughness.as_ref(), m.alpha.as_ref(), b)?;
-                Model::Dielectric { ior: m.ior.0, roughness, tint: m.tint.build(b)? }
+                let ior = interior::index(m.ior.as_ref(), m.cauchy.as_ref(), &mut m.interior.build()?)?;
+                Model::Dielectric { ior, roughness, tint: m.tint.build(b)? }
             }
             Self::Conductor(m) => {
                 let roughness = roughness(m.roughness.as_ref(), m.alpha.as_ref(), b)?;
@@ -246,6 +253,21 @@ impl MaterialKind {
             Self::MetallicRoughnessTable(m) => m.build(b)?,
             Self::Absorb(_) => Model::Absorb,
         })
+    }
+}
+
+impl MaterialKind {
+    /// What it encloses; of a mixture nothing of its own.
+    pub(super) fn interior(&self) -> Result<Interior, Fault> {
+        match self {
+            Self::Dielectric(m) => {
+                let mut interior = m.interior.build()?;
+                interior::index(m.ior.as_ref(), m.cauchy.as_ref(), &mut interior)?;
+                Ok(interior)
+            }
+            Self::MetallicRoughnessTable(m) => m.interior.build(),
+            _ => Ok(Interior::default()),
+        }
     }
 }
 

@@ -51,6 +51,7 @@ mod build;
 mod camera;
 mod color;
 mod derived;
+mod interior;
 mod keys;
 mod light;
 mod material;

@@ -167,7 +167,7 @@ numbers! {
 
 /// Implements [`Read`] for integers.
 macro_rules! integers {
-    ($($T:ty: $min:literal, $max:expr, $one:literal, $many:literal;)+) => {$(
+    ($($T:ty: $min:expr, $max:expr, $one:literal, $many:literal;)+) => {$(
         impl Read for $T {
             fn read(node: &Node<'_>) -> Result<Self, Fault> {
                 let DeValue::Integer(i) = node.get_ref() else { return Err(mismatch::<Self>(node)) };
@@ -189,6 +189,7 @@ macro_rules! integers {
 
 integers! {
     u32: 0, u32::MAX, "a whole number ≥ 0", "whole numbers ≥ 0";
+    i32: -2_147_483_648, i32::MAX, "a whole number", "whole numbers";
 }
 
 /// A side of an image in pixels.

@@ -125,8 +125,9 @@ fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findin
 /// The path tracer's image of the paths that Whitted's method follows, with so many samples a pixel and replicate.
 fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
     let (integrator, strategy, max_depth) = (Integrator::Path, settings.strategy, u32::MAX);
-    let method = Method { scene, integrator, strategy, max_depth };
     let camera = Camera::new(&scene.cameras[settings.camera], settings.size);
+    let inside = scene.inside(camera.middle());
+    let method = Method { scene, integrator, strategy, max_depth, inside };
     let seed = hash(&[settings.seed, 2]);
     let sample = |[x, y]: [u32; 2], index: u64| {
         let mut u = Sampler::new(Kind::Independent, seed, [x, y], index, 1);

@@ -1,4 +1,4 @@
-//! Rows F, L, T and C2: the crate's scenes that carry their exact answer. The row is the beginning of the file's name;
+//! Rows F, L, T, V and C2: the crate's scenes that carry their exact answer. The row is the beginning of the file's name;
 //! the formula stands in the file's header. A new file in `scenes/verify/` is a new task.
 
 use crate::scene::Scene;
@@ -6,7 +6,7 @@ use crate::verify::expect::{Effort, checks};
 use crate::verify::{Findings, Task, Topic, Trial, scenes};
 
 /// The rows, as the table of closed forms has them.
-const ROWS: [Topic; 17] = [
+const ROWS: [Topic; 18] = [
     row("F1", "open white furnace: L = L0, the object vanishes", "second law of thermodynamics"),
     row(
         "F2",
@@ -31,6 +31,7 @@ const ROWS: [Topic; 17] = [
     row("T5", "Fresnel, Snell, total reflection", "Fresnel 1823"),
     row("T6", "L/n² is invariant along refracted rays", "Straubel 1902"),
     row("C2", "radiance along a ray in vacuum does not depend on the distance", "L(x → y) = L(y ← x)"),
+    row("V1", "homogeneous absorbing medium: exp(−σ_a d), between interfaces and nested", "Beer 1852; Stokes 1862"),
     UNKNOWN,
 ];
 

@@ -1,13 +1,14 @@
 //! A scene in a furnace, and materials made lossless.
 
-use crate::desc::{ColorParam, Emission, Environment, Fresnel, Material, Model, Scene, Shape, framing};
+use crate::desc::{ColorParam, Emission, Environment, Fresnel, Interior, Material, Model, Scene, Shape, framing};
 use glam::Mat3;
 
 /// The same material with everything that could be coloured made white, so that it scatters all that it receives:
-/// reflectances, base colours and tints 1, mixtures filled up to 1. Roughness, metalness, indices and coverage stay as
+/// reflectances, base colours and tints 1, interiors clear, mixtures filled up to 1. Roughness, metalness, indices and coverage stay as
 /// they are. `None` for what absorbs whatever its parameters are.
 pub(super) fn lossless(material: &Material) -> Option<Material> {
-    Some(Material { model: white(&material.model)?, emission: None, ..material.clone() })
+    let interior = Interior { absorption: [0.0; 3], ..material.interior };
+    Some(Material { model: white(&material.model)?, emission: None, interior, ..material.clone() })
 }
 
 fn white(model: &Model) -> Option<Model> {

@@ -53,7 +53,7 @@ impl Scattering for Worn<'_> {
 
 /// Parameters at a place in words: `roughness 0.80, metal 1.00`; empty for models without.
 pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: &Place) -> String {
-    let at = Point { uv: &place.uv, color: place.color, textures };
+    let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => format!("roughness {:.2}", param::scalar(p, at)),
         Roughness::Alpha([a, b]) if a == b => format!("α {a}"),
@@ -78,7 +78,7 @@ pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: 
 
 /// The least α of a model's rough lobes at a place; smooth ones do not count: they are drawn for themselves.
 pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> Option<f64> {
-    let at = Point { uv: &place.uv, color: place.color, textures };
+    let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
     let rough = |r: &Roughness| {
         let alpha = match r {
             Roughness::Perceptual(p) => param::scalar(p, at).powi(2),

@@ -1,0 +1,170 @@
+//! Interiors of a scene's materials, and which of them a point is in.
+
+use super::{Scene, Vertex};
+use crate::desc;
+use crate::material;
+use crate::math::{Ray, offset_origin};
+use crate::medium::{Inside, Interior, MOST_NESTED, Meeting};
+use crate::spectrum::Spectrum;
+use arrayvec::ArrayVec;
+use glam::Vec3;
+
+/// Of a material whose surfaces enclose nothing.
+const NONE: u32 = u32::MAX;
+
+/// What the materials enclose.
+#[derive(Clone, Debug, Default)]
+pub struct Media {
+    interiors: Vec<Interior>,
+    /// Interior of every material. Materials with equal interiors share one, so that a body may wear several.
+    of_material: Vec<u32>,
+}
+
+/// The interface that a path stands at: what is there on both sides of it.
+#[derive(Clone, Debug, Default)]
+pub struct Interface {
+    /// Before the front of the surface.
+    before: Option<u32>,
+    /// Behind it.
+    behind: Option<u32>,
+    /// The interiors on the other side than the path's.
+    pub across: Inside,
+}
+
+impl Media {
+    pub(super) fn new(materials: &[desc::Material]) -> Self {
+        let mut media = Self::default();
+        let mut known = std::collections::HashMap::new();
+        for m in materials {
+            media.of_material.push(material::interior(m).map_or(NONE, |interior| {
+                let key = (
+                    interior.index.to_array().map(f32::to_bits),
+                    interior.medium.absorption.0.to_array().map(f32::to_bits),
+                    interior.priority,
+                );
+                *known.entry(key).or_insert_with(|| {
+                    media.interiors.push(interior);
+                    (media.interiors.len() - 1) as u32
+                })
+            }));
+        }
+        media
+    }
+
+    /// The interior that a material's surfaces enclose.
+    #[inline]
+    fn of(&self, material: u32) -> Option<u32> {
+        let id = self.of_material[material as usize];
+        (id != NONE).then_some(id)
+    }
+
+    /// Where the vertex lies on the surface of an interior: what it is to a path in `inside`.
+    #[inline]
+    fn meet(&self, inside: &Inside, vertex: &Vertex) -> Option<Meeting> {
+        self.of(vertex.material).map(|id| inside.meet(id, vertex.front, &self.interiors))
+    }
+
+    /// Where the vertex is hidden in something of higher priority: the interiors behind it. What emits is never hidden,
+    /// or its light would be lost to some and not to others who sample it.
+    #[inline]
+    pub(super) fn hidden(&self, inside: &Inside, vertex: &Vertex) -> Option<Inside> {
+        if inside.is_empty() || vertex.light.is_some() {
+            return None;
+        }
+        self.meet(inside, vertex).filter(|meeting| !meeting.is_true).map(|meeting| meeting.across)
+    }
+
+    /// The two sides of the vertex for a path in `inside`. A surface that encloses nothing has `inside` on both.
+    #[inline]
+    pub fn interface(&self, inside: &Inside, vertex: &Vertex) -> Interface {
+        match self.meet(inside, vertex) {
+            None => Interface { before: None, behind: None, across: inside.clone() },
+            Some(meeting) => {
+                Interface { before: meeting.before, behind: self.of(vertex.material), across: meeting.across }
+            }
+        }
+    }
+
+    /// What passes the interface has another η in every lane, and must choose one.
+    #[inline]
+    pub fn disperses(&self, interface: &Interface) -> bool {
+        let one = |id: Option<u32>| id.is_some_and(|id| self.interiors[id as usize].disperses());
+        interface.behind.is_some() && (one(interface.behind) || one(interface.before))
+    }
+
+    /// Index behind over index before the surface in a lane; `None` where that is the material's own over vacuum.
+    #[inline]
+    pub fn eta(&self, interface: &Interface, lane: Option<usize>) -> Option<f32> {
+        let behind = &self.interiors[interface.behind? as usize];
+        let before = interface.before.map(|id| &self.interiors[id as usize]);
+        match (before, lane) {
+            (None, None) => None,
+            _ => {
+                // Without a lane all are alike.
+                let lane = lane.unwrap_or(1);
+                Some(behind.index[lane] / before.map_or(1.0, |i| i.index[lane]))
+            }
+        }
+    }
+
+    /// Share of light that is left after `distance` \[m\] in what is there.
+    #[inline]
+    pub fn transmittance(&self, inside: &Inside, distance: f32) -> Spectrum {
+        inside.current().map_or(Spectrum::ONE, |id| self.interiors[id as usize].medium.transmittance(distance))
+    }
+}
+
+impl Scene {
+    /// The interiors about a point: those whose surfaces are left more often than entered on the way to infinity, on
+    /// every one of several ways, so that open surfaces enclose nothing.
+    pub fn inside(&self, p: Vec3) -> Inside {
+        /// Far from the axes and from each other.
+        const WAYS: [Vec3; 7] = [
+            Vec3::new(0.31, 0.86, 0.41),
+            Vec3::new(-0.53, 0.27, 0.80),
+            Vec3::new(0.73, -0.19, -0.66),
+            Vec3::new(-0.21, -0.92, 0.33),
+            Vec3::new(-0.68, 0.44, -0.59),
+            Vec3::new(0.39, 0.58, -0.71),
+            Vec3::new(0.58, -0.62, 0.53),
+        ];
+        let mut inside = Inside::default();
+        if self.media.interiors.is_empty() {
+            return inside;
+        }
+        let mut left = self.left(p, WAYS[0]);
+        for way in &WAYS[1..] {
+            let others = self.left(p, *way);
+            left.retain(|id| others.contains(id));
+        }
+        // What is left last was entered first.
+        for id in left.into_iter().rev() {
+            inside = inside.entered(id, &self.media.interiors);
+        }
+        inside
+    }
+
+    /// The interiors that a ray leaves without having entered them, in order.
+    fn left(&self, p: Vec3, way: Vec3) -> ArrayVec<u32, MOST_NESTED> {
+        let mut ray = Ray::new(p, way.normalize());
+        let (mut left, mut entered) = (ArrayVec::new(), vec![0u32; self.media.interiors.len()]);
+        while let Some(hit) = self.geometry.nearest(&ray) {
+            let vertex = self.vertex(&ray, &hit);
+            if let Some(id) = self.media.of(vertex.material)
+                && self.coverage(&vertex) >= 0.5
+            {
+                let depth = &mut entered[id as usize];
+                if vertex.front {
+                    *depth += 1;
+                } else if *depth > 0 {
+                    *depth -= 1;
+                } else if left.try_push(id).is_err() {
+                    break;
+                }
+            }
+            let s = &vertex.surface;
+            ray = Ray::new(offset_origin(s.p, s.p_error, s.ng, ray.d), ray.d);
+        }
+        left
+    }
+}
