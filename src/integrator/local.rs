@@ -1,8 +1,9 @@
 //! Local illumination: emitted and direct light, L = Le + ∫ f Le |cos| dω, without recursion.
 
 use super::{
-    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium, sees_lights,
-    strategy,
+    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium,
+    scatter::{self, Scattered},
+    sees_lights,
 };
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
@@ -60,28 +61,26 @@ pub(super) fn reflected<O: Observer>(
     let [choose_light, choose_lobe] = sampler.next_2d();
     let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
 
+    let next = scatter::draw(method, vertex, shading, choose_lobe, u_bsdf, sampler);
+
     // By light.
-    if sees_lights(shading.bsdf, scene) {
-        let (all, specular) = direct_light(method, vertex, shading, sides, choose_light, u_light, watch);
+    if sees_lights(vertex, shading, scene) {
+        let stray = next.and_then(|next| next.stray);
+        let (all, specular) = direct_light(method, vertex, shading, sides, stray, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }
 
     // By direction, as far as the first surface.
-    let Some(next) = strategy::sample(method, shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { return sum };
-    let Some(ray) = shading.leave(vertex, next.wi) else { return sum };
-    let drawn = Drawn::new(next.pdf, shading.receiver(vertex));
-    if !keep(drawn) {
-        return sum;
-    }
-    let mut inside = sides.towards(shading.wo, next.wi).clone();
+    let Some(Scattered { ray, drawn, weight, specular, .. }) = next.filter(|next| keep(next.drawn)) else { return sum };
+    let mut inside = sides.towards(vertex, ray.d).clone();
     watch.ray();
     let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
     let le = match &met {
         Some(end) => emitted(method, end, drawn),
         None => environment(method, &ray, drawn),
     };
-    let light = next.weight * le * medium::on_the_way(method, &ray, met.as_ref(), &inside);
-    watch.light(beta * light, &classes.reflected(next.weight, next.specular));
+    let light = weight * le * medium::on_the_way(method, &ray, met.as_ref(), &inside);
+    watch.light(beta * light, &classes.reflected(weight, specular));
     sum + light
 }

@@ -22,10 +22,11 @@ pub struct Sides<'a> {
 }
 
 impl<'a> Sides<'a> {
-    /// Where `wi` leads; both directions local.
+    /// Where the world direction `wi` leads from `vertex`.
     #[inline]
-    pub fn towards(&self, wo: Vec3, wi: Vec3) -> &'a Inside {
-        if wo.z * wi.z < 0.0 { self.across } else { self.here }
+    pub fn towards(&self, vertex: &Vertex, wi: Vec3) -> &'a Inside {
+        let above = wi.dot(vertex.surface.ng) > 0.0;
+        if above == vertex.front { self.here } else { self.across }
     }
 }
 

@@ -15,14 +15,16 @@ mod medium;
 pub mod path;
 pub mod raycast;
 pub mod replay;
+mod scatter;
 pub mod strategy;
 pub mod whitted;
 
 pub use classes::Classes;
 pub use medium::Sides;
+pub use scatter::Stray;
 pub use strategy::Drawn;
 
-use crate::bsdf::{Bsdf, Pdf, Transport};
+use crate::bsdf::{Pdf, Transport};
 use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
 use crate::light::Receiver;
@@ -125,12 +127,13 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: 
 ///
 /// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
 /// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
-/// light). Returns the radiance and the part of it that specular lobes reflect.
+/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`). Returns the radiance and the part of it that specular lobes reflect.
 pub fn direct_light<O: Observer>(
     method: &Method,
     vertex: &Vertex,
     shading: &Shading,
     sides: Sides,
+    stray: Option<Stray>,
     choice: f32,
     u: [f32; 2],
     watch: &mut O,
@@ -139,32 +142,38 @@ pub fn direct_light<O: Observer>(
     let scene = method.scene;
     let receiver = shading.receiver(vertex);
     let Some((_, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
+    // f |cos θ|, of what strayed too, and the density of the other sampler.
     let wi = shading.frame.to_local(light.wi);
-    if !shading.agrees(vertex, light.wi, wi) {
-        return NOTHING;
+    let (mut f, mut specular, mut pdf) = (Spectrum::ZERO, Spectrum::ZERO, shading.stray_pdf(vertex, light.wi));
+    if shading.agrees(vertex, light.wi, wi) {
+        let eval = shading.bsdf.eval(shading.wo, wi, Transport::Radiance);
+        (f, specular, pdf) = (eval.f * wi.z.abs(), eval.specular * wi.z.abs(), pdf + eval.pdf);
     }
-    let eval = shading.bsdf.eval(shading.wo, wi, Transport::Radiance);
+    if let Some(stray) = stray {
+        let (all, part) = stray.towards(vertex, light.wi);
+        (f, specular) = (f + all, specular + part);
+    }
     // How much of this light is the light sampler's share?
     let share = match (light.pdf, method.strategy) {
         (Pdf::Discrete(p), _) => 1.0 / p,
-        (Pdf::SolidAngle(pdf), Strategy::Mis) => power_heuristic(pdf, eval.pdf) / pdf,
-        (Pdf::SolidAngle(pdf), Strategy::Light) => 1.0 / pdf,
+        (Pdf::SolidAngle(light_pdf), Strategy::Mis) => power_heuristic(light_pdf, pdf) / light_pdf,
+        (Pdf::SolidAngle(light_pdf), Strategy::Light) => 1.0 / light_pdf,
         (Pdf::SolidAngle(_), Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => return NOTHING,
     };
-    if eval.f.is_black() {
+    if f.is_black() {
         return NOTHING;
     }
     watch.ray();
-    let inside = sides.towards(shading.wo, wi);
+    let inside = sides.towards(vertex, light.wi);
     let visible = scene.visibility(vertex, &light, inside);
     if visible == 0.0 {
         return NOTHING;
     }
-    let mut arriving = light.le * (wi.z.abs() * share * visible);
+    let mut arriving = light.le * (share * visible);
     if !inside.is_empty() {
         arriving *= scene.media.transmittance(inside, light.distance);
     }
-    (eval.f * arriving, eval.specular * arriving)
+    (f * arriving, specular * arriving)
 }
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would
@@ -212,9 +221,9 @@ fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
     le * weight_of_hit(method.strategy, drawn, |from| lights.environment_pdf(from, ray.d))
 }
 
-/// Whether `bsdf` reflects light that the light sampler finds.
-fn sees_lights(bsdf: &Bsdf, scene: &Scene) -> bool {
-    bsdf.has_smooth() && !scene.lights.is_empty()
+/// Whether light that the light sampler finds is reflected.
+fn sees_lights(vertex: &Vertex, shading: &Shading, scene: &Scene) -> bool {
+    (shading.bsdf.has_smooth() || shading.is_bent(vertex)) && !scene.lights.is_empty()
 }
 
 #[cfg(test)]

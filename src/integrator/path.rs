@@ -1,8 +1,8 @@
 //! The path tracer: equation (2), recursion and all, by one random path a sample.
 
 use super::{
-    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium, sees_lights,
-    strategy,
+    Classes, Drawn, Method, Observer, Sides, direct_light, emitted, environment, first_surface, medium, scatter,
+    sees_lights, strategy,
 };
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
@@ -55,9 +55,12 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let [choose_light, choose_lobe] = sampler.next_2d();
         let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
 
+        let next = scatter::draw(method, &vertex, &shading, choose_lobe, u_bsdf, sampler);
+
         // ∫ by light
-        if sees_lights(shading.bsdf, scene) {
-            let (all, specular) = direct_light(method, &vertex, &shading, sides, choose_light, u_light, watch);
+        if sees_lights(&vertex, &shading, scene) {
+            let stray = next.and_then(|next| next.stray);
+            let (all, specular) = direct_light(method, &vertex, &shading, sides, stray, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {
@@ -66,13 +69,11 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         }
 
         // ∫ by BSDF
-        let Some(next) = strategy::sample(method, shading.bsdf, shading.wo, choose_lobe, u_bsdf) else { break };
-        let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
+        let Some(next) = next else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
-        drawn = Drawn::new(next.pdf, shading.receiver(&vertex));
-        ray = leaving;
-        inside = sides.towards(shading.wo, next.wi).clone();
+        (ray, drawn) = (next.ray, next.drawn);
+        inside = sides.towards(&vertex, ray.d).clone();
         watch.drawn(drawn, beta);
         if O::CLASSES {
             classes = classes.reflected(next.weight, next.specular);

@@ -44,8 +44,8 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
             continue;
         }
 
-        // The smooth lobes: local light.
-        if shading.bsdf.has_smooth() {
+        // The smooth lobes, and what perfect ones send into a surface with a bent normal: local light.
+        if shading.bsdf.has_smooth() || shading.is_bent(&vertex) {
             let smooth = |drawn| matches!(drawn, Drawn::Smooth { .. });
             let local = reflected(method, &vertex, &shading, sides, sampler, watch, beta, classes, smooth);
             sample.radiance += beta * local;
@@ -53,14 +53,17 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 
         // The perfect ones: a branch each.
         for next in shading.bsdf.deltas(shading.wo, Transport::Radiance) {
-            let Some(ray) = shading.leave(&vertex, next.wi) else { continue };
+            let wi = shading.frame.to_world(next.wi).normalize();
+            if !shading.agrees(&vertex, wi, next.wi) {
+                continue;
+            }
             let mut beta = beta * next.weight;
             let survival = strategy::survival(beta, 1.0 / FAINT);
             if beta.is_black() || sampler.next_1d() >= survival {
                 continue;
             }
             beta *= 1.0 / survival;
-            let inside = sides.towards(shading.wo, next.wi).clone();
+            let (ray, inside) = (shading.leave(&vertex, wi), sides.towards(&vertex, wi).clone());
             branches.push((ray, Drawn::Delta, beta, classes.reflected(next.weight, next.specular), inside, lane));
         }
     }

@@ -50,11 +50,11 @@ impl<'a> Shading<'a> {
         wi.dot(vertex.surface.ng) * local.z > 0.0
     }
 
-    /// Who asks for light here: the half-space above the shading normal on the side of `wo`, or both where something is
-    /// transmitted.
+    /// Who asks for light here: the half-space above the shading normal on the side of `wo` (above the surface, where the
+    /// normal is bent: strayed light leaves there), or both where something is transmitted.
     #[inline]
     pub fn receiver(&self, vertex: &Vertex) -> Receiver {
-        let n = self.frame.n;
+        let n = if self.is_bent(vertex) { vertex.surface.ng } else { self.frame.n };
         let facing = match (self.bsdf.transmits(), self.wo.z < 0.0) {
             (true, _) => Facing::Both(n),
             (false, true) => Facing::Half(-n),
@@ -63,13 +63,30 @@ impl<'a> Shading<'a> {
         Receiver { p: vertex.surface.p, facing }
     }
 
-    /// The ray that leaves along `wi` (local), off the surface by its error bound; `None` where the direction is on
-    /// different sides of the surface and of the shading normal.
+    /// (1 − cos β)/2 for a shading normal at the angle β to the geometric one: the share of Lambert's light that it sends
+    /// into the surface (the rest is the form factor of a tilted plane to the sky).
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, wi: Vec3) -> Option<Ray> {
-        let d = self.frame.to_world(wi).normalize();
+    fn stray_share(&self, vertex: &Vertex) -> f32 {
+        (0.5 - 0.5 * self.frame.n.dot(vertex.surface.ng)).max(0.0)
+    }
+
+    /// The shading normal differs from the geometric one by more than rounding.
+    #[inline]
+    pub fn is_bent(&self, vertex: &Vertex) -> bool {
+        self.stray_share(vertex) > 1e-6
+    }
+
+    /// Density \[1/sr\] that stands for strayed light towards the world direction `wi`.
+    #[inline]
+    pub fn stray_pdf(&self, vertex: &Vertex, wi: Vec3) -> f32 {
+        self.stray_share(vertex) * wi.dot(vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
+    }
+
+    /// The ray that leaves along the world direction `wi`, off the surface by its error bound.
+    #[inline]
+    pub fn leave(&self, vertex: &Vertex, wi: Vec3) -> Ray {
         let s = &vertex.surface;
-        self.agrees(vertex, d, wi).then(|| Ray::new(offset_origin(s.p, s.p_error, s.ng, d), d))
+        Ray::new(offset_origin(s.p, s.p_error, s.ng, wi), wi)
     }
 }
 

@@ -1,0 +1,103 @@
+//! Where a path goes on at a vertex: a direction that the BSDF draws about the shading normal, made one that the surface allows.
+//!
+//! A bent shading normal n sends some of its light into the surface, below the horizon of the geometric normal g. A real
+//! bump would meet its neighbour there and scatter again. Dropping that light leaves black fringes and up to half of the
+//! energy; here the neighbour is white and diffuse, and lies flat: what strays leaves again by the cosine about g,
+//!
+//! ```text
+//! f'(o, i)|cos θ| = f(o, i)|i·n|  +  |i·g|/π ∫_below f(o, w)|w·n| dw
+//! ```
+//!
+//! with the first term where i is on one side of both. So a lossless lobe stays lossless under every normal map, nothing is
+//! created (the white furnace of row F1), and the second term fades at the horizon. What is transmitted strays to the other
+//! side likewise. Schüssler et al. (2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing") make the
+//! neighbour a second facet of the same or a mirroring material; theirs is reciprocal and loses what bounces more than twice.
+//!
+//! The integral is estimated by the very draw that the path makes, one for both samplers. For the weights of multiple
+//! importance sampling any density will do that both compute alike: (1 − n·g)/2, what strays of Lambert's lobe, stands
+//! for the share of all lobes.
+
+use super::{Drawn, Method, strategy};
+use crate::bsdf::{Pdf, Transport};
+use crate::math::{Frame, Ray};
+use crate::sampler::Sampler;
+use crate::scene::{Shading, Vertex};
+use crate::spectrum::Spectrum;
+use crate::warp::cosine_hemisphere;
+use glam::Vec3;
+use std::f32::consts::FRAC_1_PI;
+
+/// The next direction of a path.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scattered {
+    /// It leaves here.
+    pub(super) ray: Ray,
+    /// f |cos θ| / pdf.
+    pub(super) weight: Spectrum,
+    /// The part of it that specular lobes give.
+    pub(super) specular: Spectrum,
+    /// Relative index of refraction crossed.
+    pub(super) eta: f32,
+    /// How it was drawn.
+    pub(super) drawn: Drawn,
+    /// The draw had strayed.
+    pub(super) stray: Option<Stray>,
+}
+
+/// Light that a bent shading normal sent below the horizon, an estimate of the integral above.
+#[derive(Clone, Copy, Debug)]
+pub struct Stray {
+    weight: Spectrum,
+    specular: Spectrum,
+    /// Sign of i·g for the directions in which it leaves again.
+    side: f32,
+}
+
+impl Stray {
+    /// Its f' |cos θ| towards the world direction `wi`, and the part that specular lobes give.
+    #[inline]
+    pub(super) fn towards(&self, vertex: &Vertex, wi: Vec3) -> (Spectrum, Spectrum) {
+        let share = (wi.dot(vertex.surface.ng) * self.side).max(0.0) * FRAC_1_PI;
+        (self.weight * share, self.specular * share)
+    }
+}
+
+/// Draws the next direction as the method's strategy says; `None` where the path ends.
+#[inline]
+pub(super) fn draw(
+    method: &Method,
+    vertex: &Vertex,
+    shading: &Shading,
+    choice: f32,
+    u: [f32; 2],
+    sampler: &mut Sampler,
+) -> Option<Scattered> {
+    let next = strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
+    let (weight, specular, eta) = (next.weight, next.specular, next.eta);
+    let wi = shading.frame.to_world(next.wi).normalize();
+    if shading.agrees(vertex, wi, next.wi) {
+        let drawn = match next.pdf {
+            Pdf::SolidAngle(pdf) => {
+                Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) }
+            }
+            Pdf::Discrete(_) => Drawn::Delta,
+        };
+        return Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, stray: None });
+    }
+    if next.wi.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
+        return None;
+    }
+
+    // Into the surface, or out of it where light is transmitted: by the cosine, to the side where it belongs.
+    let side = 1f32.copysign(next.wi.z);
+    let wi = Frame::from_z(vertex.surface.ng).to_world(cosine_hemisphere(sampler.next_2d())) * side;
+    let local = shading.frame.to_local(wi);
+    let pdf = if shading.agrees(vertex, wi, local) {
+        shading.bsdf.eval(shading.wo, local, Transport::Radiance).pdf
+    } else {
+        0.0
+    };
+    let drawn = Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) };
+    let stray = Some(Stray { weight, specular, side });
+    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, stray })
+}
