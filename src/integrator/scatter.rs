@@ -2,15 +2,16 @@
 //!
 //! A bent shading normal n sends some of its light into the surface, below the horizon of the geometric normal g. A real
 //! bump would meet its neighbour there and scatter again. Dropping that light leaves black fringes and up to half of the
-//! energy; here the neighbour is white and diffuse, and lies flat: what strays leaves again by the cosine about g,
+//! energy; here the neighbour is of the material's own albedo ρ (of light along n), diffuse, and lies flat: what strays
+//! leaves again by the cosine about g,
 //!
 //! ```text
-//! f'(o, i)|cos θ| = f(o, i)|i·n|  +  |i·g|/π ∫_below f(o, w)|w·n| dw
+//! f'(o, i)|cos θ| = f(o, i)|i·n|  +  ρ |i·g|/π ∫_below f(o, w)|w·n| dw
 //! ```
 //!
 //! with the first term where i is on one side of both. So a lossless lobe stays lossless under every normal map, nothing is
-//! created (the white furnace of row F1), and the second term fades at the horizon. What is transmitted strays to the other
-//! side likewise. Schüssler et al. (2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing") make the
+//! created (the white furnace of row F1), dark paint stays dark, and the second term fades at the horizon. What is
+//! transmitted strays to the other side likewise. Schüssler et al. (2017, "Microfacet-based Normal Mapping for Robust Monte Carlo Path Tracing") make the
 //! neighbour a second facet of the same or a mirroring material; theirs is reciprocal and loses what bounces more than twice.
 //!
 //! The integral is estimated by the very draw that the path makes, one for both samplers. For the weights of multiple
@@ -98,6 +99,8 @@ pub(super) fn draw(
         0.0
     };
     let drawn = Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) };
+    let rho = shading.bsdf.albedo(Vec3::Z.copysign(shading.wo)).min(Spectrum::ONE);
+    let (weight, specular) = (weight * rho, specular * rho);
     let stray = Some(Stray { weight, specular, side });
     Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, stray })
 }
