@@ -30,6 +30,11 @@ impl ImageTexture {
         }
     }
 
+    /// Texels across and down.
+    pub(super) fn size(&self) -> Vec2 {
+        Vec2::from(self.image.size.map(|n| n as f32))
+    }
+
     pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
         Self { image, decode: &DECODE[srgb as usize], wrap, nearest }
     }

@@ -6,7 +6,9 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 8] = [
+pub const HONOURED: [&str; 10] = [
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",

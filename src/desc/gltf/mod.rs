@@ -7,7 +7,9 @@
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
-//! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
+//! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
+//! | `range` of a light | the end that the extension requires, by the window that it recommends |
+//! | `EXT_lights_image_based` | the environment: the first level of the specular cube map |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
 //! | skins, morph targets, animations | the static pose, and a note |
 //!
@@ -26,12 +28,14 @@ mod container;
 mod dielectric;
 mod document;
 mod extensions;
+mod image_based;
 mod light;
 mod material;
 mod mesh;
 mod node;
 mod normals;
 mod notes;
+mod profile;
 
 mod tangents;
 mod texture;
@@ -76,8 +80,10 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         images: HashMap::new(),
         geometry: HashMap::new(),
         meshes: HashMap::new(),
+        profiles: HashMap::new(),
     };
     reader.nodes()?;
+    reader.image_based()?;
     reader.still_life();
     Ok(Scene { notes: reader.notes.finish(), ..reader.scene })
 }
@@ -122,6 +128,8 @@ struct Reader<'a> {
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
     /// Mesh of the document → its primitives as shapes with materials.
     meshes: HashMap<usize, std::rc::Rc<[mesh::Part]>>,
+    /// Light profile of the document, read.
+    profiles: HashMap<usize, std::sync::Arc<super::ies::Profile>>,
 }
 
 impl Reader<'_> {

@@ -98,7 +98,7 @@ impl Reader<'_> {
     }
 
     /// The image `index` of the document, decoded, which `place` refers to.
-    fn image(&mut self, index: usize, place: &str) -> Result<usize, Error> {
+    pub(super) fn image(&mut self, index: usize, place: &str) -> Result<usize, Error> {
         if let Some(image) = self.images.get(&index) {
             return Ok(*image);
         }
