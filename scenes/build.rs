@@ -25,7 +25,7 @@ fn list(root: &Path, folder: &Path, files: &mut Vec<(String, PathBuf)>) -> io::R
         let path = entry?.path();
         if path.is_dir() {
             list(root, &path, files)?;
-        } else if path.extension().is_some_and(|e| ["toml", "png", "hdr"].iter().any(|known| e == *known)) {
+        } else if path.extension().is_some_and(|e| ["toml", "png", "hdr", "ies"].iter().any(|known| e == *known)) {
             let parts = path.strip_prefix(root).map_err(io::Error::other)?.iter().map(|part| part.to_string_lossy());
             files.push((parts.collect::<Vec<_>>().join("/"), path.clone()));
         }

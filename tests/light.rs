@@ -21,7 +21,8 @@ fn environment(radiance: f32, image: Option<desc::Image>, to_world: Mat3) -> Lig
 #[test]
 fn darkness_is_empty() {
     let textures = Textures::default();
-    let black = Light::from_desc(&desc::Light::Point { position: Vec3::ZERO, intensity: [0.0; 3] });
+    let black =
+        Light::from_desc(&desc::Light::Point { position: Vec3::ZERO, intensity: [0.0; 3], range: f32::INFINITY });
     for lights in [vec![], vec![black.clone(), black]] {
         let lights = Lights::new(lights, (Vec3::ZERO, 1.0), &textures);
         assert!(lights.is_empty());
@@ -72,7 +73,10 @@ fn powers_are_the_integrals_of_what_is_emitted() {
         (&sphere, 16.0 * pi * pi),
         (&sheet, pi),
         (&environment(3.0, None, Mat3::IDENTITY), 3.0 * 4.0 * pi * 4.0 * pi),
-        (&Light::from_desc(&desc::Light::Point { position: Vec3::ZERO, intensity: [2.0; 3] }), 8.0 * pi),
+        (
+            &Light::from_desc(&desc::Light::Point { position: Vec3::ZERO, intensity: [2.0; 3], range: f32::INFINITY }),
+            8.0 * pi,
+        ),
     ] {
         let power = f64::from(light.power(2.0, &none).0.x);
         assert!((power / exact - 1.0).abs() < 1e-6, "{power} is not {exact}");

@@ -3,11 +3,13 @@
 
 mod camera;
 mod complete;
+pub mod cube_map;
 mod error;
 mod expect;
 pub mod files;
 mod frame_camera;
 pub mod gltf;
+pub mod ies;
 pub mod image_file;
 mod interior;
 mod load;
@@ -79,6 +81,9 @@ pub enum Light {
         position: Vec3,
         /// Linear RGB intensity \[W/sr\].
         intensity: [f32; 3],
+        /// Distance \[m\] at which the light ends, infinite for what light does: E⊥ = (I/r²) clamp(1 − (r/range)⁴, 0, 1)
+        /// (KHR_lights_punctual).
+        range: f32,
     },
     /// A point that radiates about `direction`: fully inside `inner`, nothing beyond `outer` (half-angles, radians),
     /// between them as KHR_lights_punctual says: clamp((cos θ − cos outer)/(cos inner − cos outer))².
@@ -93,6 +98,19 @@ pub enum Light {
         inner: f32,
         /// Half-angle of the whole cone \[rad\].
         outer: f32,
+        /// Distance \[m\] at which the light ends, as for a point.
+        range: f32,
+    },
+    /// A point that radiates as was measured.
+    Profile {
+        /// Place.
+        position: Vec3,
+        /// Rotation of the profile's frame, in which it aims along −z (EXT_lights_ies).
+        to_world: Mat3,
+        /// Linear RGB factor on the profile's candelas.
+        intensity: [f32; 3],
+        /// The measurement, shared by the lights that have it.
+        profile: Arc<ies::Profile>,
     },
     /// Parallel light that travels along `direction`.
     Directional {

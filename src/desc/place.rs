@@ -38,9 +38,16 @@ pub(crate) fn append(scene: &mut Scene, mut part: Scene) -> (Vec<Object>, Vec<Li
 pub(crate) fn moved(light: &Light, m: Mat4) -> Light {
     let turn = |d: glam::Vec3| m.as_dmat4().transform_vector3(d.as_dvec3()).try_normalize().map_or(d, |d| d.as_vec3());
     match light.clone() {
-        Light::Point { position, intensity } => Light::Point { position: m.transform_point3(position), intensity },
-        Light::Spot { position, direction, intensity, inner, outer } => {
-            Light::Spot { position: m.transform_point3(position), direction: turn(direction), intensity, inner, outer }
+        Light::Point { position, intensity, range } => {
+            Light::Point { position: m.transform_point3(position), intensity, range }
+        }
+        Light::Spot { position, direction, intensity, inner, outer, range } => {
+            let (position, direction) = (m.transform_point3(position), turn(direction));
+            Light::Spot { position, direction, intensity, inner, outer, range }
+        }
+        Light::Profile { position, to_world, intensity, profile } => {
+            let to_world = super::ies::frame(turn(to_world.z_axis), turn(to_world.x_axis));
+            Light::Profile { position: m.transform_point3(position), to_world, intensity, profile }
         }
         Light::Directional { direction, irradiance } => Light::Directional { direction: turn(direction), irradiance },
     }

@@ -104,7 +104,7 @@ impl Many {
         let irradiance = |(light, &flux): (&Light, &f64)| match light {
             Light::Directional(_) => flux / (f64::from(PI) * area),
             Light::Environment(_) => flux / (4.0 * f64::from(PI) * area),
-            Light::Triangle(_) | Light::Quadric(_) | Light::Point(_) | Light::Spot(_) => 0.0,
+            Light::Triangle(_) | Light::Quadric(_) | Light::Point(_) | Light::Spot(_) | Light::Profile(_) => 0.0,
         };
         let irradiances: Vec<f64> = lights.iter().zip(fluxes).map(irradiance).collect();
         let irradiance = (irradiances.iter().sum::<f64>() * scale).min(1e30) as f32;

@@ -7,6 +7,9 @@ use crate::texture::Textures;
 use glam::{Vec2, Vec3, Vec4};
 use std::cell::OnceCell;
 
+/// Most look-ups into the textures of emissive triangles, all together.
+const LOOKUPS: usize = 1 << 24;
+
 /// The lights of a scene, one of which is asked at a time.
 #[derive(Clone, Debug, Default)]
 pub struct Lights {
@@ -19,9 +22,18 @@ pub struct Lights {
 impl Lights {
     /// Lights of a scene within the sphere of this centre and radius. A light has probability 0 only where its radiance
     /// is 0 everywhere; how the others share is the business of [`Choice`].
-    pub fn new(lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
+    pub fn new(mut lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
         // A scene of one point, or of none, is still lit from infinity.
         let radius = if radius.is_finite() { radius.clamp(1e-12, 1e15) } else { 1.0 };
+        // Look at what triangles show, for a time that does not grow with their number.
+        let pictured = |light: &&mut Light| matches!(light, Light::Triangle(t) if t.is_pictured());
+        let lookups = LOOKUPS / lights.iter_mut().filter(pictured).count().max(1);
+        for light in &mut lights {
+            if let Light::Triangle(triangle) = light {
+                triangle.divide(textures, lookups);
+            }
+        }
+
         let means: Vec<OnceCell<Vec4>> = vec![OnceCell::new(); textures.len()];
         let mean = |texture: usize| *means[texture].get_or_init(|| textures.mean(texture));
         let powers: Vec<Spectrum> = lights.iter().map(|light| light.power(radius, &mean)).collect();

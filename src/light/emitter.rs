@@ -57,7 +57,6 @@ impl Emitter {
     /// Flux \[W\] of an `area` of mean vertex colour `color`, Φ = π A Lₑ for each side, with the texture's mean taken
     /// for the part of it that the surface shows.
     pub fn power(&self, area: f32, color: Vec4, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
-        let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
         let mut le = self.factor;
         if let Some(texture) = &self.texture {
             le *= rgb(mean(texture.texture));
@@ -65,7 +64,22 @@ impl Emitter {
         if self.vertex_color {
             le *= rgb(color);
         }
+        self.flux(area, le)
+    }
+
+    /// Flux \[W\] of an `area` of this mean radiance.
+    pub fn flux(&self, area: f32, le: Spectrum) -> Spectrum {
+        let sides = if self.sides == Sides::Both { 2.0 } else { 1.0 };
         le * (PI * area * sides)
+    }
+
+    /// Texels along the longest edge of a triangle with these texture coordinates; `None` without a texture.
+    pub fn steps(&self, corners: &[[Vec2; 2]; 3], textures: &Textures) -> Option<f32> {
+        let texture = self.texture.as_ref()?;
+        let resolution = textures.resolution(texture.texture);
+        let [a, b, c] = corners.map(|uv| texture.transform.transform_point2(uv[texture.uv_set.min(1)]) * resolution);
+        let edges = [a.distance(b), b.distance(c), c.distance(a)];
+        Some(edges.into_iter().fold(0.0, |most, edge| if edge.is_finite() { edge.max(most) } else { most }))
     }
 }
 

@@ -7,12 +7,14 @@
 
 mod alias;
 mod area;
+mod cells;
 mod choice;
 mod choose;
 mod directional;
 mod emitter;
 mod environment;
 mod point;
+mod profile;
 mod quadric;
 mod receiver;
 mod specimens;
@@ -28,6 +30,7 @@ pub use directional::DirectionalLight;
 pub use emitter::Emitter;
 pub use environment::{Environment, Texels};
 pub use point::PointLight;
+pub use profile::ProfileLight;
 pub use quadric::QuadricLight;
 pub use receiver::{Facing, Receiver};
 pub use specimens::{Specimen, specimens};
@@ -70,6 +73,8 @@ pub enum Light {
     Point(PointLight),
     /// Radiates into a cone from a point.
     Spot(SpotLight),
+    /// Radiates from a point as was measured.
+    Profile(Box<ProfileLight>),
     /// Parallel light.
     Directional(DirectionalLight),
     /// Light from all around, at infinity.
@@ -80,9 +85,14 @@ impl Light {
     /// The light without a surface that was written.
     pub fn from_desc(light: &desc::Light) -> Self {
         match *light {
-            desc::Light::Point { position, intensity } => Self::Point(PointLight::new(position, intensity)),
-            desc::Light::Spot { position, direction, intensity, inner, outer } => {
-                Self::Spot(SpotLight::new(position, direction, intensity, inner, outer))
+            desc::Light::Point { position, intensity, range } => {
+                Self::Point(PointLight::new(position, intensity, range))
+            }
+            desc::Light::Spot { position, direction, intensity, inner, outer, range } => {
+                Self::Spot(SpotLight::new(position, direction, intensity, [inner, outer], range))
+            }
+            desc::Light::Profile { position, to_world, intensity, ref profile } => {
+                Self::Profile(Box::new(ProfileLight::new(position, to_world, intensity, profile.clone())))
             }
             desc::Light::Directional { direction, irradiance } => {
                 Self::Directional(DirectionalLight::new(direction, irradiance))
@@ -98,6 +108,7 @@ impl Light {
             Self::Quadric(light) => light.sample(p, u, textures),
             Self::Point(light) => light.sample(p),
             Self::Spot(light) => light.sample(p),
+            Self::Profile(light) => light.sample(p),
             Self::Directional(light) => light.sample(),
             Self::Environment(light) => light.sample(u),
         }
@@ -110,7 +121,7 @@ impl Light {
         match self {
             Self::Triangle(light) => light.pdf(reference, p, ng),
             Self::Quadric(light) => light.pdf(reference, p, ng),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => 0.0,
+            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => 0.0,
         }
     }
 
@@ -121,7 +132,9 @@ impl Light {
         match self {
             Self::Triangle(light) => light.emitter.le(uv, color, front, textures),
             Self::Quadric(light) => light.emitter.le(uv, color, front, textures),
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => Spectrum::ZERO,
+            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => {
+                Spectrum::ZERO
+            }
         }
     }
 
@@ -133,6 +146,7 @@ impl Light {
             Self::Quadric(light) => light.power(mean),
             Self::Point(light) => light.power(),
             Self::Spot(light) => light.power(),
+            Self::Profile(light) => light.power(),
             Self::Directional(light) => light.power(scene_radius),
             Self::Environment(light) => light.power(scene_radius),
         }
@@ -145,6 +159,7 @@ impl Light {
             Self::Quadric(light) => Some(light.bounds(flux)),
             Self::Point(light) => Some(light.bounds(flux)),
             Self::Spot(light) => Some(light.bounds()),
+            Self::Profile(light) => Some(light.bounds(flux)),
             Self::Directional(_) | Self::Environment(_) => None,
         }
     }
@@ -158,12 +173,12 @@ impl Light {
                 let t = light.shape.intersect(ray)?;
                 Some((t, light.shape.surface(ray, t)))
             }
-            Self::Point(_) | Self::Spot(_) | Self::Directional(_) | Self::Environment(_) => None,
+            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => None,
         }
     }
 
     /// True where light comes from one direction only, which no other sampling can meet.
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Directional(_))
+        matches!(self, Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_))
     }
 }

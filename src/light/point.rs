@@ -3,6 +3,7 @@
 use super::LightSample;
 use super::tree::LightBounds;
 use crate::bsdf::Pdf;
+use crate::math::sqr;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
 use std::f32::consts::PI;
@@ -12,18 +13,19 @@ use std::f32::consts::PI;
 pub struct PointLight {
     position: Vec3,
     intensity: Spectrum,
+    range: f32,
 }
 
 impl PointLight {
-    /// At `position` with linear RGB intensity \[W/sr\].
-    pub fn new(position: Vec3, intensity: [f32; 3]) -> Self {
-        Self { position, intensity: Spectrum::from_rgb(intensity) }
+    /// At `position` with linear RGB intensity \[W/sr\]; it ends at the distance `range`, which may be infinite.
+    pub fn new(position: Vec3, intensity: [f32; 3], range: f32) -> Self {
+        Self { position, intensity: Spectrum::from_rgb(intensity), range }
     }
 
     /// E⊥ = I/r², from the one direction there is.
     #[inline]
     pub fn sample(&self, p: Vec3) -> Option<LightSample> {
-        sample_position(self.position, p, |_| self.intensity)
+        sample_position(self.position, p, self.range, |_| self.intensity)
     }
 
     /// Φ = 4π I.
@@ -37,11 +39,13 @@ impl PointLight {
     }
 }
 
-/// Light at `p` from a point source of the given intensity towards a direction (from the source, unit).
+/// Light at `p` from a point source of the given intensity towards a direction (from the source, unit). A finite `range`
+/// ends it: E⊥ = (I/r²) clamp(1 − (r/range)⁴, 0, 1), which KHR_lights_punctual recommends for the end that it requires.
 #[inline]
 pub(super) fn sample_position(
     position: Vec3,
     p: Vec3,
+    range: f32,
     intensity: impl FnOnce(Vec3) -> Spectrum,
 ) -> Option<LightSample> {
     let to = position - p;
@@ -51,6 +55,6 @@ pub(super) fn sample_position(
     if !(distance2 > 0.0 && distance2.is_finite()) {
         return None;
     }
-    let le = intensity(-wi) / distance2;
+    let le = intensity(-wi) * ((1.0 - sqr(sqr(distance / range))).max(0.0) / distance2);
     (!le.is_black()).then_some(LightSample { wi, distance, le, pdf: Pdf::Discrete(1.0) })
 }

@@ -4,7 +4,8 @@ use super::{Environment, Light, QuadricLight, TriangleLight};
 use crate::desc::{self, ColorParam, Emission, Sides};
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric, TriangleAttributes};
-use glam::{Mat3, Mat4, Quat, Vec3};
+use crate::texture::Textures;
+use glam::{Mat3, Mat4, Quat, Vec3, Vec4};
 
 /// A light, and points that it is sampled from.
 #[derive(Clone, Debug)]
@@ -63,11 +64,23 @@ fn triangles() -> Vec<Specimen> {
             Sides::Both,
             vec![("near", Vec3::new(0.5, 0.2, 0.3)), ("behind", Vec3::new(0.5, 0.0, -0.5))],
         ),
+        colored(right),
         specimen("triangle of 10 km", hall, Sides::Both, vec![("below", Vec3::new(1e3, 2e3, 0.0))]),
     ]
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// One whose radiance grows towards a corner: drawn by its bright parts.
+fn colored(p: [Vec3; 3]) -> Option<Specimen> {
+    let grey = |x: f32| Vec4::new(x, x, x, 1.0);
+    let attributes = TriangleAttributes { colors: Some([grey(0.1), grey(0.2), grey(5.0)]), ..Default::default() };
+    let radiance = ColorParam { vertex_color: true, ..ColorParam::constant([2.0, 3.0, 1.0]) };
+    let mut light = TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front })?;
+    light.divide(&Textures::default(), 1 << 14);
+    let points = vec![("near", Vec3::new(0.2, 0.3, 0.4)), ("far", Vec3::new(3.0, 2.0, 9.0))];
+    Some(Specimen { name: "triangle with colours", light: Light::Triangle(light), points })
 }
 
 fn quadrics() -> Vec<Specimen> {
@@ -137,11 +150,16 @@ fn environments() -> Vec<Specimen> {
 fn punctual() -> Vec<Specimen> {
     let position = Vec3::new(0.0, 0.0, 2.0);
     let intensity = [3.0, 2.0, 1.0];
-    let spot = desc::Light::Spot { position, direction: Vec3::NEG_Z, intensity, inner: 0.3, outer: 0.6 };
+    let spot =
+        desc::Light::Spot { position, direction: Vec3::NEG_Z, intensity, inner: 0.3, outer: 0.6, range: f32::INFINITY };
     let sun = desc::Light::Directional { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: intensity };
     let specimen = |name, light: &desc::Light, points| Specimen { name, light: Light::from_desc(light), points };
     vec![
-        specimen("point", &desc::Light::Point { position, intensity }, vec![("below", Vec3::new(0.5, 1.0, 0.0))]),
+        specimen(
+            "point",
+            &desc::Light::Point { position, intensity, range: f32::INFINITY },
+            vec![("below", Vec3::new(0.5, 1.0, 0.0))],
+        ),
         specimen(
             "spot",
             &spot,

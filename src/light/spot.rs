@@ -16,25 +16,27 @@ pub struct SpotLight {
     intensity: Spectrum,
     cos_inner: f32,
     cos_outer: f32,
+    range: f32,
 }
 
 impl SpotLight {
     /// At `position` about the unit vector `direction`, with linear RGB intensity on the axis \[W/sr\] and half-angles
-    /// \[rad\].
-    pub fn new(position: Vec3, direction: Vec3, intensity: [f32; 3], inner: f32, outer: f32) -> Self {
+    /// \[rad\]; it ends at the distance `range`, which may be infinite.
+    pub fn new(position: Vec3, direction: Vec3, intensity: [f32; 3], [inner, outer]: [f32; 2], range: f32) -> Self {
         Self {
             position,
             direction,
             intensity: Spectrum::from_rgb(intensity),
             cos_inner: inner.cos(),
             cos_outer: outer.cos(),
+            range,
         }
     }
 
     /// E⊥ = I f(θ)/r².
     #[inline]
     pub fn sample(&self, p: Vec3) -> Option<LightSample> {
-        sample_position(self.position, p, |w| self.intensity * self.falloff(w.dot(self.direction)))
+        sample_position(self.position, p, self.range, |w| self.intensity * self.falloff(w.dot(self.direction)))
     }
 
     /// f = clamp((cos θ − cos outer)/(cos inner − cos outer), 0, 1)²; a step where the cones coincide.

@@ -1,6 +1,7 @@
 //! Emissive triangle.
 
 use super::area::Sight;
+use super::cells::Cells;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample, SphericalTriangle};
 use crate::bsdf::Pdf;
@@ -11,6 +12,7 @@ use crate::shape::{
 };
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
+use crate::warp::to_unit;
 use crate::warp::uniform_triangle;
 use glam::{DVec3, Vec2, Vec3, Vec4};
 use std::f32::consts::PI;
@@ -19,6 +21,12 @@ use std::f32::consts::PI;
 /// ones by area: from two radii above it cos θ/r² has a standard deviation of a tenth over the triangle, and area
 /// sampling takes a fifth of the time.
 const NEAR: f32 = 2.0;
+
+/// Share of the draws that goes by cells, where there are any; the others know how the triangle is seen.
+const BY_CELL: f32 = 0.75;
+
+/// Steps along an edge for emission that changes from vertex to vertex.
+const GRADIENT: f32 = 16.0;
 
 /// A triangle that emits.
 #[derive(Clone, Debug)]
@@ -34,6 +42,17 @@ pub struct TriangleLight {
     /// Texture coordinates and colours, where the emission depends on them.
     attributes: Option<Box<TriangleAttributes>>,
     flip: bool,
+    /// Where the emission changes over the triangle: once [`divide`](Self::divide) has looked.
+    picture: Option<Box<Picture>>,
+}
+
+/// What the triangle shows.
+#[derive(Clone, Debug)]
+struct Picture {
+    /// Mean Lₑ of a side that emits.
+    mean: Spectrum,
+    /// Where parts are much brighter than that.
+    cells: Option<Cells>,
 }
 
 impl TriangleLight {
@@ -54,10 +73,31 @@ impl TriangleLight {
             emitter,
             attributes: (!emitter.is_uniform()).then(|| Box::new(*attributes)),
             flip,
+            picture: None,
         })
     }
 
-    /// Draws a point of the triangle, by solid angle from near, by area from afar.
+    /// Whether the emission changes over the triangle.
+    pub fn is_pictured(&self) -> bool {
+        !self.emitter.is_uniform()
+    }
+
+    /// Finds the mean of what the triangle shows, and its bright parts, in at most `lookups` look-ups.
+    pub fn divide(&mut self, textures: &Textures, lookups: usize) {
+        if !self.is_pictured() {
+            return;
+        }
+        let corners = [[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]].map(|at| self.appearance(at).0);
+        let steps = self.emitter.steps(&corners, textures).unwrap_or(GRADIENT);
+        let le = |at: [f32; 2]| {
+            let (uv, color) = self.appearance(at);
+            self.emitter.le(&uv, color, true, textures)
+        };
+        let (mean, cells) = Cells::new(le, steps, lookups.max(1));
+        self.picture = Some(Box::new(Picture { mean, cells }));
+    }
+
+    /// Draws a point of the triangle: by solid angle from near, by area from afar; or by how brightly its parts shine.
     #[inline]
     pub fn sample(&self, reference: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         // Nothing is emitted to the back.
@@ -66,19 +106,16 @@ impl TriangleLight {
             return None;
         }
 
-        let (weights, sight, end, pdf) = if let Some(spherical) = self.spherical(reference) {
-            let w = spherical.sample(u);
-            let (u, v, distance) = self.along(reference, w)?;
-            let wi = w.as_vec3();
-            let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
-            let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
-            ([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32)
-        } else {
-            let [_, u, v] = uniform_triangle(u);
-            let p = interpolate(self.p, u, v);
-            let sight = Sight::new(reference, p, self.ng)?;
-            ([u, v], sight, sight.shadow_end(reference, p, self.ng), sight.solid_angle_pdf(1.0 / self.area))
+        let (weights, sight, end, pdf) = match self.cells() {
+            None => self.sample_plain(reference, u)?,
+            Some(cells) if u[0] < BY_CELL => {
+                let weights = cells.sample([to_unit(u[0] / BY_CELL), u[1]]);
+                let (sight, end) = self.sight(reference, weights)?;
+                (weights, sight, end, self.pdf_plain(reference, &sight))
+            }
+            Some(_) => self.sample_plain(reference, [to_unit((u[0] - BY_CELL) / (1.0 - BY_CELL)), u[1]])?,
         };
+        let pdf = self.pdf_mixed(pdf, &sight, weights);
 
         let (uv, color) = self.appearance(weights);
         let le = self.emitter.le(&uv, color, front, textures);
@@ -90,17 +127,82 @@ impl TriangleLight {
         })
     }
 
-    /// Density over solid angle of [`sample`](Self::sample) for its point `p`.
+    /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density.
     #[inline]
-    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
-        match self.spherical(reference) {
-            Some(spherical) => (1.0 / spherical.solid_angle()) as f32,
-            None => Sight::new(reference, p, ng).map_or(0.0, |sight| sight.solid_angle_pdf(1.0 / self.area)),
+    fn sample_plain(&self, reference: Vec3, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
+        if let Some(spherical) = self.spherical(reference) {
+            let w = spherical.sample(u);
+            let (u, v, distance) = self.along(reference, w)?;
+            let wi = w.as_vec3();
+            let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
+            let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
+            Some(([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32))
+        } else {
+            let [_, u, v] = uniform_triangle(u);
+            let (sight, end) = self.sight(reference, [u, v])?;
+            Some(([u, v], sight, end, sight.solid_angle_pdf(1.0 / self.area)))
         }
     }
 
-    /// Flux \[W\]; `mean` is the average of a texture.
+    /// How the point with these weights is seen, and where the shadow ray to it ends.
+    #[inline]
+    fn sight(&self, reference: Vec3, [u, v]: [f32; 2]) -> Option<(Sight, f32)> {
+        let p = interpolate(self.p, u, v);
+        let sight = Sight::new(reference, p, self.ng)?;
+        Some((sight, sight.shadow_end(reference, p, self.ng)))
+    }
+
+    /// Density over solid angle of [`sample`](Self::sample) for its point `p`.
+    #[inline]
+    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+        let Some(sight) = Sight::new(reference, p, ng) else { return 0.0 };
+        let plain = self.pdf_plain(reference, &sight);
+        if self.cells().is_none() { plain } else { self.pdf_mixed(plain, &sight, self.weights(p)) }
+    }
+
+    /// Density of [`sample_plain`](Self::sample_plain).
+    #[inline]
+    fn pdf_plain(&self, reference: Vec3, sight: &Sight) -> f32 {
+        match self.spherical(reference) {
+            Some(spherical) => (1.0 / spherical.solid_angle()) as f32,
+            None => sight.solid_angle_pdf(1.0 / self.area),
+        }
+    }
+
+    /// The density with that of the cells, where there are any.
+    #[inline]
+    fn pdf_mixed(&self, plain: f32, sight: &Sight, weights: [f32; 2]) -> f32 {
+        match self.cells() {
+            None => plain,
+            Some(cells) => {
+                let by_cell = sight.solid_angle_pdf(cells.density(weights) / self.area);
+                (1.0 - BY_CELL) * plain + BY_CELL * by_cell
+            }
+        }
+    }
+
+    #[inline]
+    fn cells(&self) -> Option<&Cells> {
+        self.picture.as_ref()?.cells.as_ref()
+    }
+
+    /// Weights of the second and third vertex at a point of the triangle.
+    #[inline]
+    fn weights(&self, p: Vec3) -> [f32; 2] {
+        let [a, b, c] = self.p.map(|p| p.as_dvec3());
+        let (e1, e2, s) = (b - a, c - a, p.as_dvec3() - a);
+        let (d11, d12, d22) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
+        let inverse = 1.0 / (d11 * d22 - d12 * d12);
+        let (s1, s2) = (s.dot(e1), s.dot(e2));
+        [((d22 * s1 - d12 * s2) * inverse) as f32, ((d11 * s2 - d12 * s1) * inverse) as f32]
+    }
+
+    /// Flux \[W\]; `mean` is the average of a texture, which stands in for the part that the triangle shows until that
+    /// is known.
     pub fn power(&self, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+        if let Some(picture) = &self.picture {
+            return self.emitter.flux(self.area, picture.mean);
+        }
         let colors = self.attributes.as_ref().and_then(|a| a.colors);
         let color = colors.map_or(Vec4::ONE, |[a, b, c]| (a + b + c) / 3.0);
         self.emitter.power(self.area, color, mean)

@@ -31,6 +31,11 @@ impl ImageTexture {
         self.image.pixels.memory()
     }
 
+    /// Texels across and down.
+    pub(super) fn size(&self) -> Vec2 {
+        Vec2::from(self.image.size.map(|n| n as f32))
+    }
+
     pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
         let decode = match image.pixels {
             Pixels::Rgba8(_) | Pixels::Rgba32F(_) => &DECODE_8[srgb as usize],

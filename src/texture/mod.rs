@@ -50,6 +50,14 @@ impl Textures {
         }
     }
 
+    /// Steps per unit of u and v: texels of an image, squares of a checker.
+    pub fn resolution(&self, texture: usize) -> Vec2 {
+        match &self.textures[texture] {
+            Texture::Image(image) => image.size(),
+            Texture::Checker { scale, .. } => scale.abs(),
+        }
+    }
+
     /// Bytes of pixels; images that several textures share count for each.
     pub fn memory(&self) -> usize {
         self.textures.iter().map(|t| if let Texture::Image(image) = t { image.memory() } else { 0 }).sum()

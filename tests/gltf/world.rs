@@ -116,14 +116,16 @@ fn lights_stand_in_the_world() {
     let scene = d.read().unwrap();
     let [point, spot, sun, wide] = &scene.lights[..] else { panic!("{:?}", scene.lights) };
     let at = Vec3::new(1.0, 2.0, 3.0);
-    assert_eq!(*point, Light::Point { position: at, intensity: [10.0, 5.0, 0.0] });
-    let Light::Spot { position, direction, intensity, inner, outer } = *spot else { panic!("{spot:?}") };
-    assert_eq!((position, intensity, inner, outer), (at, [2.0; 3], 0.2, 0.4));
+    assert_eq!(*point, Light::Point { position: at, intensity: [10.0, 5.0, 0.0], range: 7.0 });
+    let Light::Spot { position, direction, intensity, inner, outer, range } = *spot else { panic!("{spot:?}") };
+    assert_eq!((position, intensity, inner, outer, range), (at, [2.0; 3], 0.2, 0.4, f32::INFINITY));
     assert!(direction.abs_diff_eq(-Vec3::X, 1e-6), "{direction}");
     let Light::Directional { direction, irradiance } = *sun else { panic!("{sun:?}") };
     assert!(direction.abs_diff_eq(-Vec3::X, 1e-6) && irradiance == [1.0; 3]);
     assert!(matches!(wide, Light::Spot { inner: 0.0, outer, .. } if (outer - FRAC_PI_2 / 2.0).abs() < 1e-6));
-    assert!(noted(&scene, "range of lights is ignored") && scene.notes.len() == 1, "{:?}", scene.notes);
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+    d.set("/extensions/KHR_lights_punctual/lights/0/range", json!(0));
+    assert!(noted(&d.read().unwrap(), "ranges that are not positive are ignored"));
 }
 
 #[test]

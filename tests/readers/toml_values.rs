@@ -172,9 +172,12 @@ fn groups_share_their_shapes() {
     assert_eq!(s.materials[placed[1].material].name, "mirror");
     assert!(placed[4..].iter().all(|o| s.materials[o.material].name == "gold"));
     assert!(close(placed[5].to_world.transform_point3(Vec3::X), Vec3::new(8.0, 0.0, 0.0)));
-    let point = Light::Point { position: Vec3::new(0.0, 101.0, 5.0), intensity: [3.0; 3] };
+    let point = Light::Point { position: Vec3::new(0.0, 101.0, 5.0), intensity: [3.0; 3], range: f32::INFINITY };
     assert_eq!(s.lights[1], point);
-    assert_eq!(s.lights[2], Light::Point { position: Vec3::new(0.0, 2.0, 0.0), intensity: [3.0; 3] });
+    assert_eq!(
+        s.lights[2],
+        Light::Point { position: Vec3::new(0.0, 2.0, 0.0), intensity: [3.0; 3], range: f32::INFINITY }
+    );
 }
 
 #[test]
@@ -185,7 +188,10 @@ fn lights_and_environment() {
     assert!((intensity[0] - 1.0).abs() < 1e-6, "4π W are 1 W/sr");
     let (inner, outer) = (10.0f32.to_radians(), 30.0f32.to_radians());
     let (position, direction) = (Vec3::Y * 5.0, Vec3::NEG_Y);
-    assert_eq!(*spot, Light::Spot { position, direction, intensity: [1.0, 2.0, 3.0], inner, outer });
+    assert_eq!(
+        *spot,
+        Light::Spot { position, direction, intensity: [1.0, 2.0, 3.0], inner, outer, range: f32::INFINITY }
+    );
     assert_eq!(*sun, Light::Directional { direction: Vec3::NEG_Y, irradiance: [4.0; 3] });
     let environment = s.environment.unwrap();
     assert_eq!((environment.radiance, environment.image), ([2.0, 4.0, 6.0], None));

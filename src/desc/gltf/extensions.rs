@@ -7,6 +7,8 @@ use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
 pub const HONOURED: &[&str] = &[
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
     "EXT_texture_webp",
     "KHR_lights_punctual",
     "KHR_materials_dispersion",

@@ -11,7 +11,8 @@ const FORMATS: [(&str, &str); 2] = [("KHR_texture_basisu", "KTX2"), ("EXT_textur
 /// An image in the scene.
 #[derive(Clone, Copy)]
 pub(super) struct Decoded {
-    image: usize,
+    /// Which image.
+    pub(super) image: usize,
     /// Whether the file says that it holds sRGB; few formats say.
     srgb: Option<bool>,
 }
@@ -53,7 +54,7 @@ impl Reader<'_> {
     }
 
     /// The image `index` of the document, decoded, which `place` refers to; in this format, if one is named.
-    fn image(&mut self, index: usize, format: Option<&str>, place: &str) -> Result<Decoded, Error> {
+    pub(super) fn image(&mut self, index: usize, format: Option<&str>, place: &str) -> Result<Decoded, Error> {
         if let Some(decoded) = self.images.get(&index) {
             return Ok(*decoded);
         }

@@ -22,21 +22,27 @@ impl Reader<'_> {
             *x = self.clamped(*x, 0.0, f32::INFINITY, &at("color"))?;
             *x = self.finite(*x * intensity, &at("color"))?;
         }
-        if light.range.is_some() {
-            self.notes.at(&at("range"), "the range of lights is ignored: light does not end");
-        }
+        // Beyond its range a light is to be ignored.
+        let range = match light.range {
+            None => f32::INFINITY,
+            Some(range) if range > 0.0 => range,
+            Some(_) => {
+                self.notes.at(&at("range"), "ranges that are not positive are ignored: the light does not end");
+                f32::INFINITY
+            }
+        };
 
         // Lights shine along −z of their node.
         let position = world.w_axis.truncate().as_vec3();
         let axis = (-world.z_axis.truncate()).try_normalize().map(DVec3::as_vec3);
         let described = match &light.type_ {
-            Checked::Valid(khr::Type::Point) => Some(Light::Point { position, intensity: radiant }),
+            Checked::Valid(khr::Type::Point) => Some(Light::Point { position, intensity: radiant, range }),
             Checked::Valid(khr::Type::Directional) => {
                 axis.map(|direction| Light::Directional { direction, irradiance: radiant })
             }
             Checked::Valid(khr::Type::Spot) => {
                 let [inner, outer] = self.cone(light.spot.as_ref(), &at("spot"))?;
-                axis.map(|direction| Light::Spot { position, direction, intensity: radiant, inner, outer })
+                axis.map(|direction| Light::Spot { position, direction, intensity: radiant, inner, outer, range })
             }
             Checked::Invalid => {
                 let message = "is no light type; expected \"point\", \"spot\" or \"directional\"";

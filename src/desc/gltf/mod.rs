@@ -8,7 +8,9 @@
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
-//! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
+//! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
+//! | `range` of a light | the end that the extension requires, by the window that it recommends |
+//! | `EXT_lights_image_based` | the environment: the first level of the specular cube map |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
 //! | skins, morph targets, animations | the static pose, and a note |
 //!
@@ -28,6 +30,7 @@ mod dielectric;
 mod document;
 mod extensions;
 mod image;
+mod image_based;
 mod interior;
 mod light;
 mod material;
@@ -35,7 +38,9 @@ mod mesh;
 mod node;
 mod normals;
 mod notes;
+mod profile;
 mod slot;
+
 mod tangents;
 mod texture;
 mod triangles;
@@ -83,8 +88,10 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         images: HashMap::new(),
         geometry: HashMap::new(),
         meshes: HashMap::new(),
+        profiles: HashMap::new(),
     };
     reader.nodes()?;
+    reader.image_based()?;
     reader.still_life();
     Ok(Scene { notes: reader.notes.finish(), ..reader.scene })
 }
@@ -133,6 +140,8 @@ struct Reader<'a> {
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
     /// Mesh of the document → its primitives as shapes with materials.
     meshes: HashMap<usize, std::rc::Rc<[mesh::Part]>>,
+    /// Light profile of the document, read.
+    profiles: HashMap<usize, std::sync::Arc<super::ies::Profile>>,
 }
 
 impl Reader<'_> {

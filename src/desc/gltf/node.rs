@@ -119,6 +119,9 @@ impl Reader<'_> {
         if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
             self.light(light.light.value(), world, place)?;
         }
+        if let Some(light) = node.extensions.as_ref().and_then(|e| e.others.get("EXT_lights_ies")) {
+            self.profile_light(light, world, place)?;
+        }
         Ok(())
     }
 }

@@ -6,10 +6,11 @@ use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
 use crate::desc::files::Folder;
 use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Scene, TextureRef};
-use crate::desc::{image_file, load, mesh_check, place};
+use crate::desc::{ies, image_file, load, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::sync::Arc;
 
 /// Most memory that placed objects and lights may take \[bytes\]: nested groups multiply.
 const MAX_PLACED: usize = 1 << 30;
@@ -21,6 +22,8 @@ pub(super) struct Builder<'a> {
     /// What there is so far.
     pub(super) scene: Scene,
     images: HashMap<String, usize>,
+    /// Light profiles by their file.
+    profiles: HashMap<String, Arc<ies::Profile>>,
     /// Texture by its number in the file and whether it is used as a colour.
     textures: HashMap<(usize, bool), usize>,
     parts: HashMap<String, Part>,
@@ -48,6 +51,7 @@ impl<'a> Builder<'a> {
             folder,
             scene: Scene::default(),
             images: HashMap::new(),
+            profiles: HashMap::new(),
             textures: HashMap::new(),
             parts: HashMap::new(),
             groups: HashMap::new(),
@@ -79,7 +83,7 @@ impl<'a> Builder<'a> {
 
         let mut all = self.part(&file.shape, &file.instance)?;
         for light in &file.light {
-            all.lights.push(light.build()?);
+            all.lights.push(light.build(&mut self)?);
         }
         // Groups that no instance places are built all the same: their errors count.
         for (index, entry) in file.group.0.iter().enumerate() {
@@ -161,7 +165,7 @@ impl<'a> Builder<'a> {
         self.enter("group", index, &entry.name, at)?;
         let mut part = self.part(&entry.value.shape, &entry.value.instance)?;
         for light in &entry.value.light {
-            part.lights.push(light.build()?);
+            part.lights.push(light.build(self)?);
         }
         self.open.pop();
         self.groups.insert(index, part.clone());
@@ -288,6 +292,18 @@ impl<'a> Builder<'a> {
         }
         self.scene.images.push(image.into());
         Ok(self.scene.images.len() - 1)
+    }
+
+    /// A light's measured profile, read once.
+    pub(super) fn profile(&mut self, file: &At<String>) -> Result<Arc<ies::Profile>, Fault> {
+        if let Some(profile) = self.profiles.get(&file.value) {
+            return Ok(profile.clone());
+        }
+        let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
+        let profile = ies::parse(&bytes).map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
+        let profile = Arc::new(profile);
+        self.profiles.insert(file.value.clone(), profile.clone());
+        Ok(profile)
     }
 
     fn decode(&self, file: &At<String>) -> Result<Image, Fault> {

@@ -6,7 +6,7 @@ use super::keys::{keys, one_of};
 use super::place::{Rotation, unit};
 use super::read::{At, Fault, HalfAngle, Node, NonNegative, Number, Read, mismatch};
 use super::schema::Defs;
-use crate::desc::{Environment, Light};
+use crate::desc::{Environment, Light, ies};
 use ::toml::de::DeValue;
 use glam::{Mat3, Quat, Vec3};
 use serde_json::{Value as Json, json};
@@ -18,6 +18,7 @@ one_of! {
         "point" => PointLight,
         "spot" => SpotLight,
         "directional" => DirectionalLight,
+        "ies" => IesLight,
     } default None
 }
 
@@ -61,9 +62,27 @@ keys! {
     }
 }
 
+keys! {
+    /// Radiates from a point as an IES file (LM-63) says.
+    struct IesLight {
+        /// The IES file, below the scene's folder.
+        file: At<String>,
+        /// Place [x, y, z] in metres.
+        position: At<Vec3>,
+        /// Aim [x, y, z]: where the file's vertical angle is 0.
+        direction: Option<At<Vec3>>,
+        /// Point on the aim [x, y, z] in metres, in place of the direction.
+        target: Option<Vec3>,
+        /// Turn about the aim in degrees, counter-clockwise as seen from behind the light. At 0 the horizontal angle 0 lies towards +x (+z where the light aims along x).
+        turn: Number = Number(0.0),
+        /// Factor on the candelas of the file, which count as W/sr, a number or [r, g, b]. Default 1.
+        multiplier: Grey<NonNegative> = Grey([NonNegative(1.0); 3]),
+    }
+}
+
 impl LightTable {
     /// The light.
-    pub(super) fn build(&self) -> Result<Light, Fault> {
+    pub(super) fn build(&self, b: &mut Builder<'_>) -> Result<Light, Fault> {
         let rgb = |c: &Grey<NonNegative>| c.0.map(|x| x.0);
         match self {
             Self::PointLight(p) => {
@@ -72,15 +91,11 @@ impl LightTable {
                     (None, Some(power)) => rgb(power).map(|x| x / (4.0 * PI)),
                     _ => return Err(Fault::new(&p.position.at, "the light needs one of `intensity` and `power`")),
                 };
-                Ok(Light::Point { position: p.position.value, intensity })
+                Ok(Light::Point { position: p.position.value, intensity, range: f32::INFINITY })
             }
             Self::SpotLight(s) => {
                 let position = s.position.value;
-                let direction = match (&s.direction, s.target) {
-                    (Some(d), None) => unit(d)?,
-                    (None, Some(t)) => unit(&At { at: s.position.at.clone(), value: t - position })?,
-                    _ => return Err(Fault::new(&s.position.at, "the light needs one of `direction` and `target`")),
-                };
+                let direction = aim(&s.position, &s.direction, s.target)?;
                 let (inner, outer) = (s.inner_angle.0, s.outer_angle.value.0);
                 if !(outer > 0.0 && inner <= outer) {
                     let at = if s.outer_angle.at.is_empty() { &s.position.at } else { &s.outer_angle.at };
@@ -90,12 +105,29 @@ impl LightTable {
                     return Err(Fault::new(at, message));
                 }
                 let [inner, outer] = [inner, outer].map(f32::to_radians);
-                Ok(Light::Spot { position, direction, intensity: rgb(&s.intensity), inner, outer })
+                let (intensity, range) = (rgb(&s.intensity), f32::INFINITY);
+                Ok(Light::Spot { position, direction, intensity, inner, outer, range })
             }
             Self::DirectionalLight(d) => {
                 Ok(Light::Directional { direction: unit(&d.direction)?, irradiance: rgb(&d.irradiance) })
             }
+            Self::IesLight(l) => {
+                let z = -aim(&l.position, &l.direction, l.target)?;
+                let across = if z.x.abs() > 0.999 { Vec3::Z } else { Vec3::X };
+                let to_world = ies::frame(z, across) * Mat3::from_rotation_z(l.turn.0.to_radians());
+                let profile = b.profile(&l.file)?;
+                Ok(Light::Profile { position: l.position.value, to_world, intensity: rgb(&l.multiplier), profile })
+            }
         }
+    }
+}
+
+/// The direction of a light that gives one of the two.
+fn aim(position: &At<Vec3>, direction: &Option<At<Vec3>>, target: Option<Vec3>) -> Result<Vec3, Fault> {
+    match (direction, target) {
+        (Some(d), None) => unit(d),
+        (None, Some(t)) => unit(&At { at: position.at.clone(), value: t - position.value }),
+        _ => Err(Fault::new(&position.at, "the light needs one of `direction` and `target`")),
     }
 }
 

@@ -180,8 +180,9 @@ fn emission(what: &str, rgb: [f32; 3], faults: &mut Faults) {
 
 fn light(index: usize, light: &Light, faults: &mut Faults) {
     let (rgb, place) = match light {
-        Light::Point { position, intensity } => (intensity, position),
+        Light::Point { position, intensity, .. } => (intensity, position),
         Light::Spot { position, intensity, .. } => (intensity, position),
+        Light::Profile { position, intensity, .. } => (intensity, position),
         Light::Directional { direction, irradiance } => (irradiance, direction),
     };
     emission(&format!("light {index}"), *rgb, faults);

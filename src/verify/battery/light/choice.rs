@@ -41,7 +41,11 @@ const PATCH: [Vec3; 3] = [Vec3::new(-1.0, 0.0, 1.0), Vec3::new(-1.0, 1.0, 1.0), 
 /// Lights of very different powers about the origin, number 1 black.
 fn eight() -> Lights {
     let point = |z: f32, intensity: f32| {
-        Light::from_desc(&desc::Light::Point { position: Vec3::new(0.3, 0.1, z), intensity: [intensity; 3] })
+        Light::from_desc(&desc::Light::Point {
+            position: Vec3::new(0.3, 0.1, z),
+            intensity: [intensity; 3],
+            range: f32::INFINITY,
+        })
     };
     let sun = desc::Light::Directional { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: [0.3; 3] };
     let facing_down = Mat4::from_rotation_translation(Quat::from_rotation_x(std::f32::consts::PI), Vec3::Z);

@@ -35,7 +35,7 @@ fn many(all_around: bool) -> Vec<Light> {
         let intensity = [0.1 * size * rng.random::<f32>(); 3];
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| pose.transform_point3(p));
         match if all_around { i % 2 } else { i % 7 } {
-            0 => Some(Light::from_desc(&desc::Light::Point { position: at, intensity })),
+            0 => Some(Light::from_desc(&desc::Light::Point { position: at, intensity, range: f32::INFINITY })),
             1 => quadric_light(Quadric::Sphere { radius: 1.0 }, pose, Sides::Front),
             2 => triangle_light(corners, Sides::Front),
             3 => triangle_light(corners, Sides::Both),
@@ -43,7 +43,14 @@ fn many(all_around: bool) -> Vec<Light> {
             5 => quadric_light(Quadric::Cylinder { radius: 0.5, height: 1.0 }, pose, Sides::Front),
             _ => {
                 let (inner, outer) = (0.1 + rng.random::<f32>(), 1.2 + rng.random::<f32>());
-                Some(Light::from_desc(&desc::Light::Spot { position: at, direction, intensity, inner, outer }))
+                Some(Light::from_desc(&desc::Light::Spot {
+                    position: at,
+                    direction,
+                    intensity,
+                    inner,
+                    outer,
+                    range: f32::INFINITY,
+                }))
             }
         }
     };
