@@ -1,126 +1,16 @@
-//! A garden pavilion as binary glTF: meshes that many nodes share, embedded textures, a camera and two lights.
+//! Binary glTF, put together list by list.
 
-use super::lathe::{Mesh, cuboid, lathe};
-use super::{Result, textures};
-use glam::{Vec3, vec3};
+use super::Result;
+use super::lathe::Mesh;
+use glam::Vec3;
 use image::{ImageFormat, RgbImage};
 use serde_json::{Value, json};
-use std::f32::consts::TAU;
+use std::collections::BTreeSet;
 use std::io::Cursor;
-
-/// Columns of the ring.
-const COLUMNS: u32 = 10;
-
-/// The file.
-pub(super) fn pavilion() -> Result<Vec<u8>> {
-    let mut file = Builder::default();
-    let planks = file.texture(&textures::planks(128))?;
-    let rug = file.texture(&textures::rug(64))?;
-    let worn = file.texture(&textures::scratches(64))?;
-
-    // Materials.
-    let stone = file.material(json!({ "name": "stone", "pbrMetallicRoughness": {
-        "baseColorFactor": [0.78, 0.74, 0.66, 1], "metallicFactor": 0, "roughnessFactor": 0.7 } }));
-    let wood = file.material(json!({ "name": "wood", "pbrMetallicRoughness": {
-        "baseColorTexture": { "index": planks }, "metallicFactor": 0, "roughnessFactor": 0.45 } }));
-    let tiles = file.material(json!({ "name": "tiles", "pbrMetallicRoughness": {
-        "baseColorTexture": { "index": rug, "extensions": { "KHR_texture_transform": { "scale": [6, 2] } } },
-        "metallicFactor": 0, "roughnessFactor": 0.3 } }));
-    let copper = file.material(json!({ "name": "copper", "pbrMetallicRoughness": {
-        "baseColorFactor": [0.93, 0.62, 0.52, 1], "metallicRoughnessTexture": { "index": worn } } }));
-    let leaves = file.material(json!({ "name": "leaves", "pbrMetallicRoughness": {
-        "baseColorFactor": [0.1, 0.22, 0.06, 1], "metallicFactor": 0, "roughnessFactor": 0.9 } }));
-    let glass = file.material(json!({ "name": "glass", "pbrMetallicRoughness": {
-        "metallicFactor": 0, "roughnessFactor": 0 },
-        "extensions": { "KHR_materials_transmission": { "transmissionFactor": 1 },
-                        "KHR_materials_ior": { "ior": 1.5 }, "KHR_materials_volume": { "thicknessFactor": 1 } } }));
-
-    let lantern = file.material(json!({ "name": "lantern", "emissiveFactor": [1, 0.74, 0.45],
-        "pbrMetallicRoughness": { "baseColorFactor": [0, 0, 0, 1], "metallicFactor": 0 },
-        "extensions": { "KHR_materials_emissive_strength": { "emissiveStrength": 60 } } }));
-
-    // Meshes.
-    let column = [[0.26, 0.0], [0.26, 0.12], [0.2, 0.2], [0.17, 2.6], [0.24, 2.72], [0.24, 2.85]];
-    let column = file.mesh("column", &lathe(&column, 40, 10.0), stone);
-    let step = file.mesh("step", &lathe(&[[3.4, 0.0], [3.4, 0.15], [0.0, 0.15]], 64, 0.0), stone);
-    let floor = file.mesh("floor", &lathe(&[[2.2, 0.0], [0.0, 0.0]], 48, 0.0), tiles);
-    let dome: Vec<[f32; 2]> = (0..=12)
-        .map(|i| {
-            let (sin, cos) = (TAU / 4.0 * i as f32 / 12.0).sin_cos();
-            [3.0 * cos, 1.5 * sin]
-        })
-        .collect();
-    let dome = file.mesh("dome", &lathe(&dome, 48, 0.0), copper);
-    let ceiling = file.mesh("ceiling", &lathe(&[[0.0, 0.0], [3.0, 0.0]], 48, 0.0), wood);
-    let ball: Vec<[f32; 2]> = (0..=24)
-        .map(|i| {
-            let (sin, cos) = (TAU / 2.0 * i as f32 / 24.0).sin_cos();
-            [0.4 * sin, -0.4 * cos]
-        })
-        .collect();
-    let gold = file.mesh("ball", &lathe(&ball, 48, 0.0), copper);
-    let light =
-        file.mesh("lantern", &lathe(&[[0.0, -0.16], [0.12, -0.05], [0.12, 0.05], [0.0, 0.16]], 16, 0.0), lantern);
-    let crystal = file.mesh("crystal", &cuboid(Vec3::splat(-0.3), Vec3::splat(0.3)), glass);
-    let bench = file.mesh("bench", &cuboid(vec3(-0.8, 0.0, -0.25), vec3(0.8, 0.45, 0.25)), wood);
-    let tree = file.mesh(
-        "tree",
-        &lathe(&[[0.9, 0.4], [0.5, 1.6], [0.7, 1.6], [0.3, 2.8], [0.4, 2.8], [0.0, 4.2]], 9, 0.0),
-        leaves,
-    );
-
-    // Nodes: the ring of columns and the trees are one mesh each, placed many times.
-    let mut roots = Vec::new();
-    for i in 0..COLUMNS {
-        let angle = TAU * (i as f32 + 0.5) / COLUMNS as f32;
-        let (sin, cos) = angle.sin_cos();
-        roots.push(file.node(json!({ "mesh": column, "translation": [2.7 * cos, 0.15, 2.7 * sin] })));
-    }
-    for i in 0..9 {
-        let angle = TAU * i as f32 / 9.0 + 0.2;
-        let (distance, size) = (8.0 + 1.7 * (i % 3) as f32, 0.9 + 0.15 * (i % 4) as f32);
-        let (sin, cos) = angle.sin_cos();
-        // The view stays free.
-        if sin < 0.6 {
-            let at = [distance * cos, -0.3, distance * sin];
-            let (s, c) = (0.35 * i as f32).sin_cos();
-            roots.push(file.node(
-                json!({ "mesh": tree, "translation": at, "scale": [size, size, size], "rotation": [0, s, 0, c] }),
-            ));
-        }
-    }
-    for (mesh, at) in [
-        (step, [0.0, 0.0, 0.0]),
-        (floor, [0.0, 0.152, 0.0]),
-        (dome, [0.0, 3.0, 0.0]),
-        (ceiling, [0.0, 3.0, 0.0]),
-        (gold, [0.0, 4.85, 0.0]),
-        (gold, [-0.7, 0.56, 0.3]),
-        (crystal, [0.5, 0.46, 0.7]),
-        (light, [0.0, 2.3, 0.0]),
-        (bench, [0.0, 0.16, -1.2]),
-    ] {
-        roots.push(file.node(json!({ "mesh": mesh, "translation": at })));
-    }
-
-    // A camera that looks up a little, and a lamp beside the path.
-    let camera = json!({ "camera": 0, "name": "path", "translation": [2.4, 1.7, 9.5],
-        "rotation": quaternion(0.24, 0.03) });
-    roots.push(file.node(camera));
-    let lamp = json!({ "name": "lamp", "translation": [-1.6, 0.9, 4.6],
-        "extensions": { "KHR_lights_punctual": { "light": 0 } } });
-    roots.push(file.node(lamp));
-    file.finish(&roots)
-}
-
-/// Turn about y by `yaw`, then up by `pitch` \[rad\]: x, y, z, w.
-fn quaternion(yaw: f32, pitch: f32) -> [f32; 4] {
-    (glam::Quat::from_rotation_y(yaw) * glam::Quat::from_rotation_x(pitch)).to_array()
-}
 
 /// The lists of a glTF document and its binary chunk.
 #[derive(Default)]
-struct Builder {
+pub(super) struct Builder {
     binary: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
@@ -151,7 +41,7 @@ impl Builder {
     }
 
     /// A texture of an embedded PNG; texture, image and index are the same number.
-    fn texture(&mut self, image: &RgbImage) -> Result<usize> {
+    pub(super) fn texture(&mut self, image: &RgbImage) -> Result<usize> {
         let mut png = Cursor::new(Vec::new());
         image.write_to(&mut png, ImageFormat::Png)?;
         let view = self.view(png.get_ref());
@@ -159,12 +49,12 @@ impl Builder {
         Ok(self.images.len() - 1)
     }
 
-    fn material(&mut self, material: Value) -> usize {
+    pub(super) fn material(&mut self, material: Value) -> usize {
         self.materials.push(material);
         self.materials.len() - 1
     }
 
-    fn mesh(&mut self, name: &str, mesh: &Mesh, material: usize) -> usize {
+    pub(super) fn mesh(&mut self, name: &str, mesh: &Mesh, material: usize) -> usize {
         const FLOAT: u32 = 5126;
         const UNSIGNED_SHORT: u32 = 5123;
         let bytes3 =
@@ -184,27 +74,36 @@ impl Builder {
         self.meshes.len() - 1
     }
 
-    fn node(&mut self, node: Value) -> usize {
+    /// Extensions of the only primitive of a mesh.
+    pub(super) fn extend_primitive(&mut self, mesh: usize, extensions: Value) {
+        self.meshes[mesh]["primitives"][0]["extensions"] = extensions;
+    }
+
+    pub(super) fn node(&mut self, node: Value) -> usize {
         self.nodes.push(node);
         self.nodes.len() - 1
     }
 
-    /// Header, JSON chunk, binary chunk (glTF 2.0, section 4.4).
-    fn finish(mut self, roots: &[usize]) -> Result<Vec<u8>> {
+    /// Header, JSON chunk, binary chunk (glTF 2.0, section 4.4), with a perspective camera and the document's extensions.
+    pub(super) fn finish(mut self, roots: &[usize], view: &Value, extensions: Value) -> Result<Vec<u8>> {
         self.binary.resize(self.binary.len().next_multiple_of(4), 0);
         let textures: Vec<Value> = (0..self.images.len()).map(|i| json!({ "source": i })).collect();
-        let document = json!({
+        let mut document = json!({
             "asset": { "version": "2.0", "generator": "examples/make_scenes" },
-            "extensionsUsed": ["KHR_lights_punctual", "KHR_materials_emissive_strength", "KHR_materials_ior",
-                               "KHR_materials_transmission",
-                               "KHR_materials_volume", "KHR_texture_transform"],
             "scene": 0, "scenes": [{ "nodes": roots }], "nodes": self.nodes, "meshes": self.meshes,
             "materials": self.materials, "textures": textures, "images": self.images, "accessors": self.accessors,
             "bufferViews": self.views, "buffers": [{ "byteLength": self.binary.len() }],
-            "cameras": [{ "type": "perspective", "perspective": { "yfov": 0.66, "aspectRatio": 1.5, "znear": 0.1 } }],
-            "extensions": { "KHR_lights_punctual": { "lights": [
-                { "type": "point", "color": [1, 0.7, 0.42], "intensity": 5 }] } },
+            "cameras": [{ "type": "perspective", "perspective": view }],
+            "extensions": extensions,
         });
+        for key in ["textures", "images"] {
+            if document[key].as_array().is_some_and(Vec::is_empty) {
+                document.as_object_mut().map(|lists| lists.remove(key));
+            }
+        }
+        let mut used = BTreeSet::new();
+        extensions_of(&document, &mut used);
+        document["extensionsUsed"] = json!(used);
         let mut text = serde_json::to_vec(&document)?;
         text.resize(text.len().next_multiple_of(4), b' ');
         let mut file = Vec::new();
@@ -219,4 +118,19 @@ impl Builder {
         file.extend(&self.binary);
         Ok(file)
     }
+}
+
+/// Names of all extensions that stand somewhere in a value.
+fn extensions_of(value: &Value, used: &mut BTreeSet<String>) {
+    let inner: Vec<&Value> = match value {
+        Value::Object(map) => {
+            if let Some(Value::Object(extensions)) = map.get("extensions") {
+                used.extend(extensions.keys().cloned());
+            }
+            map.values().collect()
+        }
+        Value::Array(list) => list.iter().collect(),
+        _ => Vec::new(),
+    };
+    inner.into_iter().for_each(|value| extensions_of(value, used));
 }

@@ -6,6 +6,8 @@
 
 mod glb;
 mod lathe;
+mod materials;
+mod pavilion;
 mod sky;
 mod textures;
 
@@ -28,7 +30,13 @@ fn main() -> Result<()> {
     textures::plaster_normals(128).save(textures.join("plaster-normals.png"))?;
     textures::scratches(128).save(textures.join("scratches.png"))?;
     std::fs::write(textures.join("sky.hdr"), sky::daylight(256, 128, &sky::Sun::AFTERNOON)?)?;
-    std::fs::write(folder.join("pavilion.glb"), glb::pavilion()?)?;
+    std::fs::write(folder.join("pavilion.glb"), pavilion::pavilion()?)?;
+
+    let folder = folder.join("materials");
+    std::fs::create_dir_all(&folder)?;
+    for (name, file) in materials::all()? {
+        std::fs::write(folder.join(name).with_extension("glb"), file)?;
+    }
 
     textures::upper_half().save(verify.join("upper-half.png"))?;
     std::fs::write(verify.join("texel.hdr"), sky::one_texel([32, 16], [21, 5], 1000.0, 0.25)?)?;
