@@ -6,7 +6,7 @@ use crate::verify::expect::{Effort, checks};
 use crate::verify::{Findings, Task, Topic, Trial, scenes};
 
 /// The rows, as the table of closed forms has them.
-const ROWS: [Topic; 17] = [
+const ROWS: [Topic; 18] = [
     row("F1", "open white furnace: L = L0, the object vanishes", "second law of thermodynamics"),
     row(
         "F2",
@@ -30,6 +30,7 @@ const ROWS: [Topic; 17] = [
     row("T4", "specular to specular: slab T = (1 − F)/(1 + F), R = 2F/(1 + F); mirrors Le/(1 − r)", "Stokes 1862"),
     row("T5", "Fresnel, Snell, total reflection", "Fresnel 1823"),
     row("T6", "L/n² is invariant along refracted rays", "Straubel 1902"),
+    row("I1", "an image of many periods a pixel: L = the mean of its texels", "∫ L over a pixel"),
     row("C2", "radiance along a ray in vacuum does not depend on the distance", "L(x → y) = L(y ← x)"),
     UNKNOWN,
 ];
