@@ -8,12 +8,13 @@
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
+//! | `KHR_xmp_json_ld` | the packet of the asset, in [`Scene::metadata`] and so in the header of every image |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
 //! | skins, morph targets, animations | the static pose, and a note |
 //!
 //! Photometric numbers (cd, lx, cd/m²) are carried one to one into the linear RGB lanes. What the file lacks (camera,
-//! light) stays empty here. An extension of [`HONOURED`] is honoured; another one is an error where the file requires
+//! light) stays empty here. What becomes of an extension says [`EXTENSIONS`]; one that is ignored is an error where the file requires
 //! it, and a note where the file only uses it.
 //!
 //! Input is hostile: every index and range is checked where it is used, a node is visited once, nothing recurses, and
@@ -31,6 +32,7 @@ mod image;
 mod light;
 mod material;
 mod mesh;
+mod metadata;
 mod node;
 mod normals;
 mod notes;
@@ -41,7 +43,7 @@ mod triangles;
 mod uri;
 mod uv_sets;
 
-pub use extensions::HONOURED;
+pub use extensions::{EXTENSIONS, Extension, Status, Use, extension, honoured};
 
 use super::files::{self, Folder};
 use super::{Error, Scene};
@@ -66,7 +68,8 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error> {
     let container = container::split(bytes, file)?;
     let mut notes = Notes::default();
-    let root = document::parse(container.json, file, &mut notes)?;
+    let document = document::parse(container.json, file, &mut notes)?;
+    let root = document::typed(&document, file)?;
     let source = Source { file, root: &root };
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut reader = Reader {
@@ -74,7 +77,13 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         buffers: Buffers::new(source, container.bin, resolve),
         budget: Budget::of(bytes.len()),
         notes,
-        scene: Scene { name, source: Some(file.into()), ..Scene::default() },
+        scene: Scene {
+            name,
+            source: Some(file.into()),
+            extensions: extensions::uses(&document, file)?,
+            metadata: metadata::packets(&document, file)?,
+            ..Scene::default()
+        },
         materials: HashMap::new(),
         uv_sets: UvSets::default(),
         uv_sets_of: HashMap::new(),
