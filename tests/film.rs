@@ -164,6 +164,7 @@ fn header() -> Header {
         seed: u64::MAX,
         max_depth: Some(8),
         filter: Filter::BlackmanHarris,
+        metadata: vec![serde_json::json!({ "dc:creator": "Zürich" })],
         biased: vec!["max depth 8".into()],
         non_finite: 0,
     }

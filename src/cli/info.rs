@@ -1,6 +1,6 @@
 //! `radianza info SCENE`.
 
-use super::Failure;
+use super::{Failure, conformance};
 use radianza::desc::{self, Camera, Fov, Projection};
 use radianza::scene::Scene;
 use std::path::PathBuf;
@@ -14,6 +14,13 @@ pub(crate) struct Arguments {
     /// Print the JSON Schema of .toml scenes, for editors to complete and check them
     #[arg(long, conflicts_with = "scene")]
     schema: bool,
+    /// Say what becomes of each glTF extension that the file names (honoured, approximated, carried, ignored), and how
+    /// much of the light each material sends on at most: above 1 it would create energy
+    #[arg(long, conflicts_with = "schema")]
+    conformance: bool,
+    /// Print the conformance as JSON
+    #[arg(long, requires = "conformance")]
+    json: bool,
 }
 
 /// Prints it.
@@ -24,6 +31,9 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     };
     let scene = desc::load(path)?;
     let compiled = Scene::compile(&scene)?;
+    if arguments.conformance {
+        return conformance::print(path, &scene, &compiled, arguments.json);
+    }
     let info = compiled.info();
     println!("scene      {} ({})", scene.name, path.display());
     let [min, max] = [info.bounds.min, info.bounds.max];

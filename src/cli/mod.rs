@@ -2,6 +2,7 @@
 
 mod args;
 mod compare;
+mod conformance;
 mod environment;
 mod failure;
 mod info;

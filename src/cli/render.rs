@@ -118,6 +118,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         check_writable(path).map_err(|e| Failure::Output(path.clone(), e))?;
     }
     let compiled = Scene::compile(&scene)?;
+    let metadata = std::mem::take(&mut scene.metadata);
     drop(scene);
     let report = Report::new(arguments.quiet, settings.time);
     let output = render::render(&compiled, &settings, &stop, &|p| report.update(p))?;
@@ -144,6 +145,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         seed: settings.seed,
         max_depth: settings.max_depth,
         filter: settings.filter,
+        metadata,
         biased,
         non_finite: output.bad_count,
     }

@@ -68,6 +68,10 @@ pub struct Scene {
     pub render: RenderSettings,
     /// Exact answers that the image must agree with.
     pub expect: Vec<Expect>,
+    /// Extensions of glTF that its files name.
+    pub extensions: Vec<gltf::Use>,
+    /// What its files say of themselves: XMP packets in JSON-LD (`KHR_xmp_json_ld`). At most 64 KiB each.
+    pub metadata: Vec<serde_json::Value>,
     /// What a reader did that the author may not expect (ignored extensions, an added camera), a sentence each.
     pub notes: Vec<String>,
 }

@@ -31,6 +31,9 @@ pub(crate) fn append(scene: &mut Scene, mut part: Scene) -> (Vec<Object>, Vec<Li
     scene.textures.append(&mut part.textures);
     scene.images.append(&mut part.images);
     scene.notes.append(&mut part.notes);
+    scene.metadata.append(&mut part.metadata);
+    part.extensions.retain(|used| !scene.extensions.contains(used));
+    scene.extensions.append(&mut part.extensions);
     (part.objects, part.lights)
 }
 

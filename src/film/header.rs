@@ -37,6 +37,9 @@ pub struct Header {
     pub max_depth: Option<u32>,
     /// Pixel filter.
     pub filter: Filter,
+    /// What the scene's files say of themselves (XMP packets in JSON-LD), uninterpreted.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub metadata: Vec<serde_json::Value>,
     /// Why the image is not an unbiased estimate of the whole equation; empty where it is.
     pub biased: Vec<String>,
     /// Samples that were not finite or negative and count as 0.

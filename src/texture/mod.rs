@@ -1,4 +1,14 @@
 //! Functions of UV: images and checkers, in linear RGBA.
+//!
+//! # Filters
+//!
+//! Between texels an image is bilinear or constant, as the author says: this is the function L or f that is integrated. That is
+//! all the filtering there is. A pixel on which many texels fall is no special case: each of its samples looks the image up
+//! at its own point, so that the mean over samples estimates the integral over the pixel, ∫ w(x) L(x) dx with the pixel
+//! filter w, without bias: it neither aliases nor blurs, and its error is known. A mip level would put a mean over some
+//! square of texels in the place of each sample: another function, and a wrong one wherever what is looked up enters the
+//! light not linearly (roughness, normals, coverage). So `minFilter` of glTF is not used, and levels beside the
+//! first are not read. Row I1 of the battery holds this against the closed form.
 
 mod image;
 

@@ -1,5 +1,6 @@
 //! The binary from outside: arguments, exit codes, files, words.
 
+mod conformance;
 mod hostile;
 mod verify;
 

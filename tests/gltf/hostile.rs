@@ -93,6 +93,9 @@ fn required_extensions_that_are_not_honoured_are_named() {
     let scene = d.read().unwrap();
     assert_eq!(scene.notes.len(), 2, "{:?}", scene.notes);
     assert!(scene.notes[0].starts_with("`KHR_materials_sheen` is not honoured yet"));
+    let uses: Vec<_> = scene.extensions.iter().map(|u| (&*u.name, u.required, u.word())).collect();
+    assert_eq!(uses[0], ("KHR_materials_sheen", false, "ignored"));
+    assert_eq!(uses[2..], [("KHR_xmp_json_ld", false, "carried"), ("KHR_materials_ior", false, "honoured")]);
     d.set("/extensionsRequired", json!(["KHR_materials_ior", "KHR_draco_mesh_compression", "EXT_meshopt_compression"]));
     d.fails("/extensionsRequired/1", "`KHR_draco_mesh_compression`, `EXT_meshopt_compression`");
     assert_eq!(d.read().unwrap_err().kind, ErrorKind::Unsupported);

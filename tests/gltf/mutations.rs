@@ -108,3 +108,32 @@ fn the_document_that_is_changed_is_valid() {
     assert_eq!((scene.objects.len(), scene.cameras.len(), scene.lights.len(), scene.images.len()), (1, 1, 1, 1));
     check(&Document::triangle().read().unwrap());
 }
+
+/// `cargo test --test gltf -- --ignored seeds`.
+#[test]
+#[ignore = "writes tests/fuzz/corpus/gltf"]
+fn seeds_of_the_fuzzer() {
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus/gltf");
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, bytes: Vec<u8>| std::fs::write(folder.join(name), bytes).unwrap();
+    write("everything.glb", everything().glb());
+    write("triangle.glb", Document::triangle().glb());
+    let data = |d: &Document| {
+        let encoded = base64::Engine::encode(&base64::prelude::BASE64_STANDARD, &d.bin);
+        let mut d = d.clone();
+        let uri = format!("data:application/octet-stream;base64,{encoded}");
+        d.set("/buffers", json!([{ "byteLength": d.bin.len(), "uri": uri }]));
+        d.text()
+    };
+    write("everything.gltf", data(&everything()));
+    let slot = json!({ "index": 0, "texCoord": 5, "extensions": { "KHR_texture_transform": { "scale": [2, 3] } } });
+    let mut textured = Document::material(json!({ "pbrMetallicRoughness": { "baseColorTexture": slot } }));
+    textured.attribute("TEXCOORD_5", "VEC2", &[[0.0, 0.5]; 3]);
+    textured.texture([1, 1], &[[1, 2, 3, 4]]);
+    let view = textured.view(include_bytes!("images/etc1s.ktx2"));
+    textured.set("/images/1", json!({ "bufferView": view }));
+    textured.set("/textures/0/extensions/KHR_texture_basisu", json!({ "source": 1 }));
+    textured.set("/asset/extensions/KHR_xmp_json_ld", json!({ "packet": 0 }));
+    textured.set("/extensions/KHR_xmp_json_ld/packets", json!([{ "dc:title": "seed" }]));
+    write("textured.glb", textured.glb());
+}

@@ -120,3 +120,15 @@ proptest! {
         }
     }
 }
+
+/// `cargo test --test readers -- --ignored seeds`.
+#[test]
+#[ignore = "writes tests/fuzz/corpus"]
+fn seeds_of_the_fuzzer() {
+    for (target, name, text) in [("toml", "everything.toml", EVERYTHING), ("obj", "a.obj", OBJ), ("ply", "a.ply", PLY)]
+    {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus").join(target);
+        std::fs::create_dir_all(&folder).unwrap();
+        std::fs::write(folder.join(name), text).unwrap();
+    }
+}

@@ -211,3 +211,34 @@ fn assets_decode() {
     }
     assert!(seen > 0);
 }
+
+/// `cargo test --test readers -- --ignored seeds`.
+#[test]
+#[ignore = "writes tests/fuzz/corpus/image"]
+fn seeds_of_the_fuzzer() {
+    use exr::compression::Compression;
+    use exr::prelude::{FlatSamples, f16};
+    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fuzz/corpus/image");
+    std::fs::create_dir_all(&folder).unwrap();
+    let write = |name: &str, bytes: &[u8]| std::fs::write(folder.join(name), bytes).unwrap();
+    let noise = image::RgbImage::from_fn(9, 7, |x, y| image::Rgb([(x * 31) as u8, (y * 57) as u8, (x * y) as u8]));
+    let mut jpeg = Cursor::new(Vec::new());
+    noise.write_to(&mut jpeg, image::ImageFormat::Jpeg).unwrap();
+    write("a.jpg", &jpeg.into_inner());
+    write("a.png", &png(noise));
+    write(
+        "deep.png",
+        &png(image::ImageBuffer::from_fn(3, 2, |x, y| image::Rgba([x as u16 * 999, 7, 65_535, y as u16]))),
+    );
+    write("a.hdr", b"#?RADIANCE\nFORMAT=32-bit_rle_rgbe\nEXPOSURE=2\n\n-Y 1 +X 1\n\x80\x40\x20\x81");
+    let h = |x: f32| FlatSamples::F16(vec![f16::from_f32(x); 12]);
+    for (name, compression) in
+        [("zip.exr", Compression::ZIP16), ("piz.exr", Compression::PIZ), ("dwaa.exr", Compression::DWAA(Some(45.0)))]
+    {
+        write(name, &exr((4, 3), vec![("R", h(0.5)), ("G", h(2.0)), ("B", h(8.0)), ("A", h(0.5))], compression));
+    }
+    for name in ["etc1s.ktx2", "uastc.ktx2", "uastc_zstd.ktx2", "two.webp", "two_lossy.webp"] {
+        let from = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/gltf/images").join(name);
+        write(name, &std::fs::read(from).unwrap());
+    }
+}

@@ -11,11 +11,12 @@
 //! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
 //! | `range` of a light | the end that the extension requires, by the window that it recommends |
 //! | `EXT_lights_image_based` | the environment: the first level of the specular cube map |
+//! | `KHR_xmp_json_ld` | the packet of the asset, in [`Scene::metadata`] and so in the header of every image |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
 //! | skins, morph targets, animations | the static pose, and a note |
 //!
 //! Photometric numbers (cd, lx, cd/m²) are carried one to one into the linear RGB lanes. What the file lacks (camera,
-//! light) stays empty here. An extension of [`HONOURED`] is honoured; another one is an error where the file requires
+//! light) stays empty here. What becomes of an extension says [`EXTENSIONS`]; one that is ignored is an error where the file requires
 //! it, and a note where the file only uses it.
 //!
 //! Input is hostile: every index and range is checked where it is used, a node is visited once, nothing recurses, and
@@ -35,6 +36,7 @@ mod interior;
 mod light;
 mod material;
 mod mesh;
+mod metadata;
 mod node;
 mod normals;
 mod notes;
@@ -47,7 +49,7 @@ mod triangles;
 mod uri;
 mod uv_sets;
 
-pub use extensions::HONOURED;
+pub use extensions::{EXTENSIONS, Extension, Status, Use, extension, honoured};
 
 use super::files::{self, Folder};
 use super::{Error, Scene};
@@ -72,7 +74,8 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error> {
     let container = container::split(bytes, file)?;
     let mut notes = Notes::default();
-    let root = document::parse(container.json, file, &mut notes)?;
+    let document = document::parse(container.json, file, &mut notes)?;
+    let root = document::typed(&document, file)?;
     let source = Source { file, root: &root };
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut reader = Reader {
@@ -80,7 +83,13 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         buffers: Buffers::new(source, container.bin, resolve),
         budget: Budget::of(bytes.len()),
         notes,
-        scene: Scene { name, source: Some(file.into()), ..Scene::default() },
+        scene: Scene {
+            name,
+            source: Some(file.into()),
+            extensions: extensions::uses(&document, file)?,
+            metadata: metadata::packets(&document, file)?,
+            ..Scene::default()
+        },
         materials: HashMap::new(),
         uv_sets: UvSets::default(),
         uv_sets_of: HashMap::new(),

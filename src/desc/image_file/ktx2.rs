@@ -13,7 +13,7 @@ const BLOCK: u64 = 16;
 
 /// Basis Universal to 8-bit RGBA: the largest level.
 pub(super) fn decode(bytes: &[u8]) -> Decoded {
-    let container = Reader::new(bytes).map_err(|e| e.to_string())?;
+    let container = container(bytes)?;
     let size = check(&container)?;
     let transcoder = Transcoder::new(bytes).map_err(|_| "its payload is damaged")?;
     let rgba = transcoder.transcode(0, TargetFormat::Rgba32, DecodeFlags::NONE);
@@ -26,11 +26,23 @@ pub(super) fn decode(bytes: &[u8]) -> Decoded {
 
 /// Whether a KTX2 file says that it holds sRGB (and not numbers); `None` where it says neither, or is none.
 pub(in crate::desc) fn is_srgb(bytes: &[u8]) -> Option<bool> {
-    match Reader::new(bytes).ok()?.transfer_function()? {
+    match container(bytes).ok()?.transfer_function()? {
         TransferFunction::SRGB => Some(true),
         TransferFunction::Linear => Some(false),
         _ => None,
     }
+}
+
+/// The container, all of whose parts lie in the file.
+fn container(bytes: &[u8]) -> Result<Reader<&[u8]>, String> {
+    // The library takes it for granted that a block of pixels has less than 256 on a side, which stands 16 bytes into
+    // the descriptor.
+    let word = |at: usize| Some(u32::from_le_bytes(bytes.get(at..at + 4)?.try_into().ok()?));
+    let sides = word(48).and_then(|descriptor| word((descriptor as usize).checked_add(16)?));
+    if sides.is_none_or(|sides| sides.to_le_bytes().contains(&255)) {
+        return Err("its data format descriptor is damaged".into());
+    }
+    Reader::new(bytes).map_err(|e| e.to_string())
 }
 
 /// Its size, if it is what the extension allows.

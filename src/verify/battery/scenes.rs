@@ -6,7 +6,7 @@ use crate::verify::expect::{Effort, checks};
 use crate::verify::{Findings, Task, Topic, Trial, scenes};
 
 /// The rows, as the table of closed forms has them.
-const ROWS: [Topic; 18] = [
+const ROWS: &[Topic] = &[
     row("F1", "open white furnace: L = L0, the object vanishes", "second law of thermodynamics"),
     row(
         "F2",
@@ -30,6 +30,7 @@ const ROWS: [Topic; 18] = [
     row("T4", "specular to specular: slab T = (1 − F)/(1 + F), R = 2F/(1 + F); mirrors Le/(1 − r)", "Stokes 1862"),
     row("T5", "Fresnel, Snell, total reflection", "Fresnel 1823"),
     row("T6", "L/n² is invariant along refracted rays", "Straubel 1902"),
+    row("I1", "an image of many periods a pixel: L = the mean of its texels", "∫ L over a pixel"),
     row("C2", "radiance along a ray in vacuum does not depend on the distance", "L(x → y) = L(y ← x)"),
     row("V1", "homogeneous absorbing medium: exp(−σ_a d), between interfaces and nested", "Beer 1852; Stokes 1862"),
     UNKNOWN,
@@ -49,7 +50,7 @@ const SHOWN: [(&str, &str); 4] =
 fn topic(stem: &str) -> Topic {
     let shown = SHOWN.iter().find(|(name, _)| *name == stem).map(|(_, id)| *id);
     let id = shown.unwrap_or(stem.split('-').next().unwrap_or(stem));
-    ROWS.into_iter().find(|topic| topic.id.eq_ignore_ascii_case(id)).unwrap_or(UNKNOWN)
+    ROWS.iter().copied().find(|topic| topic.id.eq_ignore_ascii_case(id)).unwrap_or(UNKNOWN)
 }
 
 /// A task a file.

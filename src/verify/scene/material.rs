@@ -31,7 +31,7 @@ const PLACES: [usize; 2] = [90, 900];
 const PLACES_OF_ONE: [usize; 2] = [6, 30];
 
 /// Cosines of the angles to the normal, at a material's first place and at the others.
-const COSINES: [&[f64]; 2] = [&[0.97, 0.7, 0.4, 0.15, 0.05, 0.01], &[0.7, 0.15, 0.02]];
+pub(super) const COSINES: [&[f64]; 2] = [&[0.97, 0.7, 0.4, 0.15, 0.05, 0.01], &[0.7, 0.15, 0.02]];
 
 /// Cosines at which draws are counted in bins, at a material's first place.
 const COUNTED: [f64; 2] = [0.7, 0.15];
@@ -111,12 +111,15 @@ struct Exam<'a> {
     most: usize,
 }
 
-/// An albedo with where it was found.
-#[derive(Clone, Debug)]
-struct Albedo {
-    value: f64,
-    se: f64,
-    at: String,
+/// A directional albedo with where it was found.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Albedo {
+    /// Share of the light that is sent on, in one lane.
+    pub value: f64,
+    /// Its standard error.
+    pub se: f64,
+    /// Parameters and angle: `roughness 0.80, metal 1.00, cos 0.1`.
+    pub at: String,
 }
 
 impl Exam<'_> {
@@ -222,9 +225,7 @@ impl Exam<'_> {
 
     /// "roughness 0.80, cos 0.1".
     fn place(&self, place: &Place, mu: f64) -> String {
-        let parameters = parameters(&self.subject.desc.materials[self.index], &self.subject.scene.textures, place);
-        let parts = [place.name.clone(), parameters, format!("cos {mu}")];
-        parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+        in_words(&self.subject.desc.materials[self.index], &self.subject.scene.textures, place, mu)
     }
 
     /// "`gold`: reflects at most 0.94 (…)", and what it loses or creates.
@@ -251,6 +252,12 @@ impl Exam<'_> {
     }
 }
 
-fn albedo(m: &Moments, at: &str) -> Albedo {
+/// "roughness 0.80, cos 0.1".
+pub(super) fn in_words(material: &desc::Material, textures: &Textures, place: &Place, mu: f64) -> String {
+    let parts = [place.name.clone(), parameters(material, textures, place), format!("cos {mu}")];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
+}
+
+pub(super) fn albedo(m: &Moments, at: &str) -> Albedo {
     Albedo { value: m.mean(), se: m.standard_error(), at: at.into() }
 }

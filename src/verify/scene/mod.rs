@@ -17,6 +17,7 @@
 
 mod agreement;
 mod census;
+mod conformance;
 mod data;
 mod expect;
 mod furnace;
@@ -30,6 +31,9 @@ mod topology;
 mod view;
 mod white;
 mod worn;
+
+pub use conformance::{Conformance, conformance};
+pub use material::Albedo;
 
 use super::Task;
 use crate::desc;

@@ -90,7 +90,7 @@ fn choice(trial: &Trial, found: &mut Findings) {
         let total: f64 = stated.iter().sum();
         off = off.max(if place == 0 { (total - 1.0).abs() } else { (total - 1.0).max(0.0) });
         stated.push((1.0 - total).max(0.0));
-        let n = trial.pick(150_000, 2_000_000);
+        let n = trial.work(150_000, 2_000_000);
         let mut chosen = vec![0.0; stated.len()];
         for _ in 0..n {
             match lights.choose(&receiver, rng.random(), [rng.random(), rng.random()]) {
@@ -116,7 +116,7 @@ fn nothing_is_lost(trial: &Trial, found: &mut Findings) {
         return found.checks.holds("there is a tree", false);
     };
     let (mut lost, mut compared) = (0, 0);
-    for _ in 0..trial.pick(500, 10_000) {
+    for _ in 0..trial.work(500, 10_000) {
         let receiver = receiver(&mut rng);
         for (i, light) in lights.iter().enumerate() {
             let Some(s) = light.sample(receiver.p, [rng.random(), rng.random()], &Textures::default()) else {
@@ -149,7 +149,7 @@ fn irradiance(trial: &Trial, found: &mut Findings) {
                 f64::from(s.le.0.x * s.wi.dot(n).max(0.0) / pdf)
             })
         };
-        let most = trial.pick(1 << 15, 1 << 18);
+        let most = trial.work(1 << 15, 1 << 18);
         found.checks.equal(format!("E at {p}"), &by(&tree, trial.seed, most), &by(&power, trial.seed ^ 1, 4 * most));
     }
 }
