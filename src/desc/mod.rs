@@ -25,7 +25,7 @@ pub use complete::{NO_LIGHT, complete};
 pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
-pub use load::load;
+pub use load::{Options, load, load_with};
 pub use material::{
     Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
     Transmission,
@@ -64,6 +64,10 @@ pub struct Scene {
     pub render: RenderSettings,
     /// Exact answers that the image must agree with.
     pub expect: Vec<Expect>,
+    /// Names of the variants that its files offer; [`Options::variant`] chooses one.
+    pub variants: Vec<String>,
+    /// When its last animation ends \[s\]; `None` where nothing moves.
+    pub duration: Option<f64>,
     /// What a reader did that the author may not expect (ignored extensions, an added camera), a sentence each.
     pub notes: Vec<String>,
 }

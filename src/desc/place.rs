@@ -31,6 +31,9 @@ pub(crate) fn append(scene: &mut Scene, mut part: Scene) -> (Vec<Object>, Vec<Li
     scene.textures.append(&mut part.textures);
     scene.images.append(&mut part.images);
     scene.notes.append(&mut part.notes);
+    part.variants.retain(|name| !scene.variants.contains(name));
+    scene.variants.append(&mut part.variants);
+    scene.duration = scene.duration.into_iter().chain(part.duration).reduce(f64::max);
     (part.objects, part.lights)
 }
 

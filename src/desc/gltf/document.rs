@@ -12,8 +12,8 @@ use serde::Deserialize;
 use serde_json::Value;
 use std::path::Path;
 
-/// Parses and checks the document's frame: version, extensions, types of all fields.
-pub(super) fn parse(bytes: &[u8], file: &Path, notes: &mut Notes) -> Result<json::Root, Error> {
+/// Parses and checks the document's frame: version, extensions.
+pub(super) fn parse(bytes: &[u8], file: &Path, notes: &mut Notes) -> Result<Value, Error> {
     let document: Value = serde_json::from_slice(bytes).map_err(|e| {
         let place = if e.line() > 0 { format!("{}:{}", e.line(), e.column()) } else { String::new() };
         Error::invalid(file, place, format!("is not JSON: {e}"))
@@ -23,8 +23,13 @@ pub(super) fn parse(bytes: &[u8], file: &Path, notes: &mut Notes) -> Result<json
     }
     version(&document, file)?;
     extensions::check(&document, file, notes)?;
-    json::Root::deserialize(&document).map_err(|e| {
-        let (place, message) = culprit(&document).unwrap_or_else(|| (String::new(), e.to_string()));
+    Ok(document)
+}
+
+/// The typed document, all fields checked.
+pub(super) fn typed(document: &Value, file: &Path) -> Result<json::Root, Error> {
+    json::Root::deserialize(document).map_err(|e| {
+        let (place, message) = culprit(document).unwrap_or_else(|| (String::new(), e.to_string()));
         Error::invalid(file, place, message)
     })
 }
@@ -48,7 +53,6 @@ fn version(document: &Value, file: &Path) -> Result<(), Error> {
 fn culprit(document: &Value) -> Option<(String, String)> {
     use json::{buffer, mesh, scene, texture};
     list::<json::Accessor>(document, "", "accessors")
-        .or_else(|| list::<json::Animation>(document, "", "animations"))
         .or_else(|| list::<buffer::Buffer>(document, "", "buffers"))
         .or_else(|| list::<buffer::View>(document, "", "bufferViews"))
         .or_else(|| list::<json::Camera>(document, "", "cameras"))

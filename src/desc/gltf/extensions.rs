@@ -1,19 +1,28 @@
 //! Which extensions are honoured, and what happens to the others.
 
+use super::Source;
 use super::notes::Notes;
 use crate::desc::Error;
-use serde_json::Value;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 8] = [
+pub const HONOURED: [&str; 15] = [
+    "EXT_mesh_gpu_instancing",
+    "EXT_meshopt_compression",
+    "KHR_animation_pointer",
+    "KHR_draco_mesh_compression",
     "KHR_lights_punctual",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",
     "KHR_materials_specular",
     "KHR_materials_transmission",
     "KHR_materials_unlit",
+    "KHR_materials_variants",
     "KHR_materials_volume",
+    "KHR_mesh_quantization",
+    "KHR_node_visibility",
     "KHR_texture_transform",
 ];
 
@@ -33,6 +42,27 @@ pub(super) fn check(document: &Value, file: &Path, notes: &mut Notes) -> Result<
         notes.say(format!("`{name}` is not honoured yet; the file is read as if it were absent"));
     }
     Ok(())
+}
+
+impl Source<'_> {
+    /// What the extension `name` says of the object at `place`, whose untyped extensions `others` are.
+    pub(super) fn extension<T: DeserializeOwned>(
+        &self,
+        others: Option<&Map<String, Value>>,
+        name: &str,
+        place: &str,
+    ) -> Result<Option<T>, Error> {
+        let Some(value) = others.and_then(|others| others.get(name)) else { return Ok(None) };
+        match T::deserialize(value) {
+            Ok(extension) => Ok(Some(extension)),
+            Err(e) => Err(self.invalid(format!("{place}/extensions/{name}"), e.to_string())),
+        }
+    }
+
+    /// Whether the document says that it uses the extension `name`.
+    pub(super) fn uses(&self, name: &str) -> bool {
+        self.root.extensions_used.iter().chain(&self.root.extensions_required).any(|used| used == name)
+    }
 }
 
 fn known(name: &str) -> bool {

@@ -5,7 +5,7 @@ use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
 use crate::desc::files::Folder;
-use crate::desc::{Emission, Image, Light, Material, Mesh, Model, Object, Pixels, Scene, TextureRef};
+use crate::desc::{Emission, Image, Light, Material, Mesh, Model, Object, Options, Pixels, Scene, TextureRef};
 use crate::desc::{image_file, load, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
@@ -18,6 +18,7 @@ const MAX_PLACED: usize = 1 << 30;
 pub(super) struct Builder<'a> {
     file: &'a SceneFile,
     folder: Folder,
+    options: &'a Options,
     /// What there is so far.
     pub(super) scene: Scene,
     images: HashMap<String, usize>,
@@ -42,10 +43,11 @@ struct Part {
 
 impl<'a> Builder<'a> {
     /// Nothing yet.
-    pub(super) fn new(file: &'a SceneFile, folder: Folder) -> Self {
+    pub(super) fn new(file: &'a SceneFile, folder: Folder, options: &'a Options) -> Self {
         Self {
             file,
             folder,
+            options,
             scene: Scene::default(),
             images: HashMap::new(),
             textures: HashMap::new(),
@@ -174,7 +176,7 @@ impl<'a> Builder<'a> {
             return Ok(part.clone());
         }
         let path = self.folder.resolve(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let content = load::read_model(&path).map_err(|mut e| {
+        let content = load::read_model(&path, self.options).map_err(|mut e| {
             e.message = match e.place.as_str() {
                 "" => format!("`{}`: {}", file.value, e.message),
                 place => format!("`{}`, {place}: {}", file.value, e.message),
