@@ -1,6 +1,7 @@
 //! The binary from outside: arguments, exit codes, files, words.
 
 mod hostile;
+mod pick;
 mod verify;
 
 use assert_cmd::Command;
