@@ -150,6 +150,8 @@ fn filters_are_smooth_and_odd() {
 
 fn header() -> Header {
     Header {
+        at: None,
+        variant: None,
         software: "radianza".into(),
         scene: Origin::new("Zürich 🌍", b"scene"),
         environment: None,

@@ -2,6 +2,8 @@
 
 #[path = "gltf/assets.rs"]
 mod assets;
+#[path = "gltf/compressed.rs"]
+mod compressed;
 #[path = "gltf/document.rs"]
 mod document;
 #[path = "gltf/files.rs"]
@@ -16,9 +18,17 @@ mod hostile;
 mod materials;
 #[path = "gltf/mutations.rs"]
 mod mutations;
+#[path = "gltf/pose.rs"]
+mod pose;
+#[path = "gltf/quantized.rs"]
+mod quantized;
+#[path = "gltf/skinned.rs"]
+mod skinned;
 #[path = "gltf/tangents.rs"]
 mod tangents;
 #[path = "gltf/textures.rs"]
 mod textures;
+#[path = "gltf/variants.rs"]
+mod variants;
 #[path = "gltf/world.rs"]
 mod world;

@@ -66,6 +66,7 @@ impl Failure {
                 desc::ErrorKind::Invalid => 3,
                 desc::ErrorKind::Missing => 4,
                 desc::ErrorKind::Unsupported => 5,
+                desc::ErrorKind::Choice => 2,
             },
             Self::Image(_, ReadError::Invalid(_)) => 3,
             Self::Image(_, ReadError::Missing(_)) => 4,

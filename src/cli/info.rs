@@ -1,5 +1,6 @@
 //! `radianza info SCENE`.
 
+use super::pick::Pick;
 use super::{Failure, conformance};
 use radianza::desc::{self, Camera, Fov, Projection};
 use radianza::scene::Scene;
@@ -11,6 +12,8 @@ pub(crate) struct Arguments {
     /// The scene: .toml, .gltf, .glb, .obj or .ply
     #[arg(required_unless_present = "schema")]
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    pick: Pick,
     /// Print the JSON Schema of .toml scenes, for editors to complete and check them
     #[arg(long, conflicts_with = "scene")]
     schema: bool,
@@ -29,7 +32,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         println!("{}", desc::toml::schema());
         return Ok(());
     };
-    let scene = desc::load(path)?;
+    let options = arguments.pick.options();
+    let scene = desc::load_with(path, &options)?;
     let compiled = Scene::compile(&scene)?;
     if arguments.conformance {
         return conformance::print(path, &scene, &compiled, arguments.json);
@@ -46,6 +50,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     println!("materials  {}", list(&info.materials));
     println!("textures   {} of {} images", info.textures, scene.images.len());
     println!("lights     {}", info.lights);
+    if let Some(end) = scene.duration {
+        let now = options.at.map_or("the pose that the nodes state".into(), |t| format!("{t} s"));
+        println!("time       {now}, of animations of {end} s");
+    }
+    if !scene.variants.is_empty() {
+        let now = options.variant.map_or("none".into(), |name| format!("`{name}`"));
+        println!("variant    {now}, of {}", list(&scene.variants));
+    }
     println!(
         "memory     {}",
         memory(&[("meshes", info.mesh_bytes), ("trees", info.bvh_bytes), ("images", info.texture_bytes)])

@@ -8,6 +8,7 @@ mod failure;
 mod info;
 mod interrupt;
 mod meter;
+mod pick;
 mod progress;
 mod render;
 mod settings;

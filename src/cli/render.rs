@@ -1,6 +1,7 @@
 //! `radianza render SCENE`.
 
 use super::args::{self, Replay};
+use super::pick::Pick;
 use super::progress::{Report, speed};
 use super::settings::{self, Choices};
 use super::{Failure, environment, interrupt, meter};
@@ -23,6 +24,8 @@ const LISTED: usize = 10;
 pub(crate) struct Arguments {
     /// The scene: .toml, .gltf, .glb, .obj or .ply
     scene: PathBuf,
+    #[command(flatten)]
+    pick: Pick,
     /// The image; out/NAME.exr without
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
@@ -96,7 +99,8 @@ fn power_of_two(text: &str) -> Result<u32, String> {
 /// Renders, and writes the images.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     // Read the scene and decide.
-    let mut scene = desc::load(&arguments.scene)?;
+    let options = arguments.pick.options();
+    let mut scene = desc::load_with(&arguments.scene, &options)?;
     let hash = Origin::new(&scene.name, &desc::files::read(&arguments.scene)?);
     let environment = arguments.env.as_deref().map(|path| environment::replace(&mut scene, path)).transpose()?;
     let Choices { settings, layers, display, biased, notes } = settings::choose(arguments, &scene)?;
@@ -134,6 +138,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         software: concat!("radianza ", env!("CARGO_PKG_VERSION")).into(),
         scene: hash,
         environment,
+        at: options.at,
+        variant: options.variant,
         camera,
         size: settings.size,
         crop: settings.crop,

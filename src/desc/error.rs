@@ -25,6 +25,8 @@ pub enum ErrorKind {
     Missing,
     /// The content is valid but asks for what is not honoured.
     Unsupported,
+    /// The content is valid and lacks what was asked for.
+    Choice,
 }
 
 impl Error {
@@ -41,6 +43,11 @@ impl Error {
     /// Valid but not honoured.
     pub fn unsupported(file: &Path, place: impl Into<String>, message: impl Into<String>) -> Self {
         Self { file: file.into(), place: place.into(), message: message.into(), kind: ErrorKind::Unsupported }
+    }
+
+    /// Valid but without what was asked for.
+    pub fn choice(file: &Path, message: impl Into<String>) -> Self {
+        Self { file: file.into(), place: String::new(), message: message.into(), kind: ErrorKind::Choice }
     }
 }
 

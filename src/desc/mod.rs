@@ -29,7 +29,7 @@ pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
 pub use interior::{Dispersion, Interior, absorption};
-pub use load::load;
+pub use load::{Options, load, load_with};
 pub use material::{
     Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
     Transmission,
@@ -72,6 +72,10 @@ pub struct Scene {
     pub extensions: Vec<gltf::Use>,
     /// What its files say of themselves: XMP packets in JSON-LD (`KHR_xmp_json_ld`). At most 64 KiB each.
     pub metadata: Vec<serde_json::Value>,
+    /// Names of the variants that its files offer; [`Options::variant`] chooses one.
+    pub variants: Vec<String>,
+    /// When its last animation ends \[s\]; `None` where nothing moves.
+    pub duration: Option<f64>,
     /// What a reader did that the author may not expect (ignored extensions, an added camera), a sentence each.
     pub notes: Vec<String>,
 }

@@ -34,6 +34,9 @@ pub(crate) fn append(scene: &mut Scene, mut part: Scene) -> (Vec<Object>, Vec<Li
     scene.metadata.append(&mut part.metadata);
     part.extensions.retain(|used| !scene.extensions.contains(used));
     scene.extensions.append(&mut part.extensions);
+    part.variants.retain(|name| !scene.variants.contains(name));
+    scene.variants.append(&mut part.variants);
+    scene.duration = scene.duration.into_iter().chain(part.duration).reduce(f64::max);
     (part.objects, part.lights)
 }
 

@@ -15,6 +15,12 @@ pub struct Header {
     /// The image that replaced the scene's environment.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub environment: Option<Origin>,
+    /// Time of the animations \[s\], if one was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub at: Option<f64>,
+    /// The variant that was chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub variant: Option<String>,
     /// Index and name of the camera.
     pub camera: (usize, String),
     /// Width and height of the whole image.

@@ -2,6 +2,7 @@
 
 mod conformance;
 mod hostile;
+mod pick;
 mod verify;
 
 use assert_cmd::Command;

@@ -187,18 +187,3 @@ fn equal_data_is_one_shape() {
     assert_eq!(seen, [("a", 0, 0), ("a", 0, 1), ("b", 0, 0), ("b", 0, 1)]);
     assert_eq!([&scene.materials[0].name, &scene.materials[1].name], ["default", "green"]);
 }
-
-#[test]
-fn what_moves_is_noted() {
-    let mut d = Document::triangle();
-    d.set("/meshes/0/primitives/0/targets", json!([{ "POSITION": 0 }]));
-    d.set("/meshes/0/weights", json!([1.0]));
-    d.set("/skins", json!([{ "joints": [0] }]));
-    d.set("/nodes/0/skin", json!(0));
-    d.set("/animations", json!([{ "channels": [{ "sampler": 0, "target": { "node": 0, "path": "scale" } }], "samplers": [{ "input": 0, "output": 0 }] }]));
-    let scene = d.read().unwrap();
-    assert_eq!(scene.objects.len(), 1);
-    for words in ["morph targets are not applied", "skins are not applied", "animations are not played"] {
-        assert!(noted(&scene, words), "{words}: {:?}", scene.notes);
-    }
-}

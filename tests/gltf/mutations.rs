@@ -1,7 +1,10 @@
 //! Any bytes, and any change to a document, end in a scene that keeps its promises, or in an error.
 
+use super::compressed::{draco, meshopt};
 use super::document::{Document, glb, parse};
 use super::hostile::everything;
+use super::pose::{at, morphed};
+use super::skinned::moving;
 use proptest::prelude::*;
 use radianza::desc::{Scene, Shape};
 use serde_json::{Value, json};
@@ -81,6 +84,46 @@ proptest! {
         }
     }
 
+    /// Skins, morph targets, instances and animations, at a time.
+    #[test]
+    fn changed_documents_that_move(changes in prop::collection::vec((any::<prop::sample::Index>(), hostile_value()), 1..5)) {
+        let mut d = moving();
+        d.set("/buffers", json!([{ "byteLength": d.bin.len() }]));
+        for (place, value) in changes {
+            let mut list = Vec::new();
+            pointers(&d.json, "", &mut list);
+            *d.json.pointer_mut(place.get::<String>(&list)).unwrap() = value;
+        }
+        if let Ok(scene) = at(&d, 0.3) {
+            check(&scene);
+        }
+    }
+
+    #[test]
+    fn changed_buffers_that_move(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u32>()), 1..12)) {
+        for mut d in [moving(), morphed()] {
+            for (place, word) in &changes {
+                let at = place.index(d.bin.len() / 4) * 4;
+                d.bin[at..at + 4].copy_from_slice(&word.to_le_bytes());
+            }
+            if let Ok(scene) = at(&d, 0.3) {
+                check(&scene);
+            }
+        }
+    }
+
+    /// Compressed streams: what is decoded is no longer what was encoded.
+    #[test]
+    fn changed_streams(which in 0..4usize, changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..6)) {
+        let mut d = [|| draco(12, 0), || draco(12, 1), || meshopt(12, "TRIANGLES"), || meshopt(12, "INDICES")][which]();
+        for (place, byte) in changes {
+            *place.get_mut(&mut d.bin) = byte;
+        }
+        if let Ok(scene) = d.read() {
+            check(&scene);
+        }
+    }
+
     /// The buffer alone: the document stays valid, the numbers do not.
     #[test]
     fn changed_buffers(changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u32>()), 1..12)) {
@@ -107,6 +150,9 @@ fn the_document_that_is_changed_is_valid() {
     check(&scene);
     assert_eq!((scene.objects.len(), scene.cameras.len(), scene.lights.len(), scene.images.len()), (1, 1, 1, 1));
     check(&Document::triangle().read().unwrap());
+    let scene = at(&moving(), 0.3).unwrap();
+    check(&scene);
+    assert_eq!((scene.objects.len(), scene.shapes.len()), (3, 2));
 }
 
 /// `cargo test --test gltf -- --ignored seeds`.

@@ -7,8 +7,9 @@ use outputs::Outputs;
 use select::{list, select};
 
 use super::meter::{Meter, left, time};
+use super::pick::Pick;
 use super::{Failure, args, interrupt};
-use radianza::desc;
+use radianza::desc::{self, Options};
 use radianza::scene::Scene;
 use radianza::stats::ALPHA;
 use radianza::verify::report::text::{self, Detail};
@@ -25,6 +26,8 @@ use std::time::Instant;
 pub(crate) struct Arguments {
     /// A scene to check instead of the program: .toml, .gltf, .glb, .obj or .ply
     scene: Option<PathBuf>,
+    #[command(flatten)]
+    pick: Pick,
     /// A quarter of an hour of two cores instead of a minute: more members, smaller detectable biases
     #[arg(long, conflicts_with = "quick")]
     thorough: bool,
@@ -87,8 +90,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
 /// Everything that can be checked of the scene, or of the program.
 fn tasks(arguments: &Arguments) -> Result<Vec<Task>, Failure> {
-    let Some(path) = &arguments.scene else { return Ok(battery::tasks()) };
-    let scene = desc::load(path)?;
+    let options = arguments.pick.options();
+    let Some(path) = &arguments.scene else {
+        return match options == Options::default() {
+            true => Ok(battery::tasks()),
+            false => Err(Failure::Usage("a time or a variant needs a scene".into())),
+        };
+    };
+    let scene = desc::load_with(path, &options)?;
     if !arguments.quiet {
         scene.notes.iter().for_each(|text| eprintln!("note: {}", one_line(text)));
     }
@@ -136,6 +145,7 @@ fn about(arguments: &Arguments) -> About {
     let mut command = String::from("radianza verify");
     if let Some(scene) = &scene {
         command += &format!(" {}", quoted(scene));
+        command += &arguments.pick.command(quoted);
     }
     command += &format!(" --seed {} --alpha {}", arguments.seed, arguments.alpha);
     match size(arguments) {

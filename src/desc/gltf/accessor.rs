@@ -1,100 +1,169 @@
 //! Accessors: typed lists of elements in buffers, strided, normalised, sparse (glTF 2.0, section 3.6.2).
 
-use super::Reader;
+use super::Source;
+use super::budget::Budget;
+use super::buffers::Buffers;
+use super::component::{self, Types};
 use crate::desc::Error;
-use gltf::json::accessor::{Accessor, ComponentType, Type};
+use gltf::json::accessor::{ComponentType, Type};
 use gltf::json::validation::Checked;
 use std::borrow::Cow;
+use std::fmt;
 
-/// The elements of an accessor, tightly packed.
-struct Elements<'a> {
-    bytes: Cow<'a, [u8]>,
-    component: ComponentType,
-    /// Bytes of one element.
-    size: usize,
+/// How the elements of a list are stored.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Layout {
+    pub component: ComponentType,
+    /// Components of one element.
+    pub lanes: usize,
+    pub normalized: bool,
 }
 
-impl Reader<'_> {
-    /// Vectors of N floats, or of normalised unsigned integers where `integers` allows them; all finite.
+impl Layout {
+    /// Bytes of one element.
+    pub(super) fn size(self) -> usize {
+        self.lanes * self.component.size()
+    }
+}
+
+impl fmt::Display for Layout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&describe(Some(self.lanes), Some(self.component), self.normalized))
+    }
+}
+
+/// The elements of a list, tightly packed.
+pub(super) struct Elements<'b> {
+    pub bytes: Cow<'b, [u8]>,
+    pub layout: Layout,
+}
+
+impl Elements<'_> {
+    /// How many.
+    pub(super) fn count(&self) -> usize {
+        self.bytes.len() / self.layout.size()
+    }
+
+    fn iter(&self) -> impl Iterator<Item = (usize, &[u8])> {
+        self.bytes.chunks_exact(self.layout.size()).enumerate()
+    }
+}
+
+/// What accessors are read with.
+#[derive(Clone, Copy)]
+pub(super) struct Accessors<'b, 'a> {
+    pub source: Source<'a>,
+    pub buffers: &'b Buffers<'a>,
+    pub budget: &'b Budget,
+}
+
+impl<'b> Accessors<'b, '_> {
+    /// Vectors of N numbers, all finite.
     pub(super) fn floats<const N: usize>(
-        &self,
+        self,
         accessor: usize,
         place: &str,
-        integers: bool,
+        types: Types,
     ) -> Result<Vec<[f32; N]>, Error> {
-        let a = self.source.get(&self.source.root.accessors, accessor, "accessor", place)?;
-        let fits = match component(a) {
-            Some(ComponentType::F32) => !a.normalized,
-            Some(ComponentType::U8 | ComponentType::U16) => integers && a.normalized,
-            _ => false,
-        };
-        if !fits || lanes(a) != Some(N) {
-            let or = if integers { " or of normalised u8 or u16" } else { "" };
-            let message = format!("accessor {accessor} is {}; expected VEC{N} of f32{or}", describe(a));
-            return Err(self.source.invalid(place, message));
-        }
-        let elements = self.elements(a, accessor)?;
-        self.budget.decode(self.source, place, elements.bytes.len() / elements.size, size_of::<[f32; N]>())?;
+        self.fit::<N>(self.layout(accessor, place)?, types, place)?;
+        self.vectors(&self.elements(accessor, place)?, types, place)
+    }
+
+    /// Elements as vectors of N numbers, all finite.
+    pub(super) fn vectors<const N: usize>(
+        self,
+        elements: &Elements,
+        types: Types,
+        place: &str,
+    ) -> Result<Vec<[f32; N]>, Error> {
+        let Layout { component, normalized, .. } = elements.layout;
+        self.fit::<N>(elements.layout, types, place)?;
+        self.budget.decode(self.source, place, elements.count(), size_of::<[f32; N]>())?;
 
         // Decode, and refuse what is not a number.
-        let width = elements.size / N;
         let decode = |(i, element): (usize, &[u8])| {
-            let vector: [f32; N] = std::array::from_fn(|lane| {
-                let b = &element[lane * width..][..width];
-                match elements.component {
-                    ComponentType::U8 => f32::from(b[0]) / 255.0,
-                    ComponentType::U16 => f32::from(u16::from_le_bytes([b[0], b[1]])) / 65535.0,
-                    _ => f32::from_le_bytes([b[0], b[1], b[2], b[3]]),
-                }
-            });
+            let lane = |lane| component::number(component, normalized, &element[lane * component.size()..]);
+            let vector: [f32; N] = std::array::from_fn(lane);
             match vector.iter().all(|x| x.is_finite()) {
                 true => Ok(vector),
                 false => Err(self.source.invalid(place, format!("element {i} is {vector:?}; expected finite numbers"))),
             }
         };
-        elements.bytes.chunks_exact(elements.size).enumerate().map(decode).collect()
+        elements.iter().map(decode).collect()
     }
 
-    /// Indices below `bound`, of 8, 16 or 32 bits.
-    pub(super) fn indices(&self, accessor: usize, place: &str, bound: usize) -> Result<Vec<u32>, Error> {
-        let a = self.source.get(&self.source.root.accessors, accessor, "accessor", place)?;
-        let unsigned = matches!(component(a), Some(ComponentType::U8 | ComponentType::U16 | ComponentType::U32));
-        if !unsigned || lanes(a) != Some(1) || a.normalized {
-            let message = format!("accessor {accessor} is {}; expected SCALAR of u8, u16 or u32", describe(a));
+    /// Whether elements of this layout are vectors of N numbers.
+    fn fit<const N: usize>(self, layout: Layout, types: Types, place: &str) -> Result<(), Error> {
+        if types.hold(layout.component, layout.normalized) && layout.lanes == N {
+            return Ok(());
+        }
+        Err(self.source.invalid(place, format!("is {layout}; expected {} of {types}", kind(Some(N)))))
+    }
+
+    /// Vectors of N unsigned integers.
+    pub(super) fn integers<const N: usize>(self, elements: &Elements, place: &str) -> Result<Vec<[u32; N]>, Error> {
+        let Layout { component, lanes, normalized } = elements.layout;
+        let unsigned = matches!(component, ComponentType::U8 | ComponentType::U16 | ComponentType::U32);
+        if !unsigned || lanes != N || normalized {
+            let message = format!("is {}; expected {} of u8, u16 or u32", elements.layout, kind(Some(N)));
             return Err(self.source.invalid(place, message));
         }
-        let elements = self.elements(a, accessor)?;
-        self.budget.decode(self.source, place, elements.bytes.len() / elements.size, size_of::<u32>())?;
-        let decode = |(i, b): (usize, &[u8])| match index(elements.component, b) {
-            index if (index as usize) < bound => Ok(index),
-            index => {
+        self.budget.decode(self.source, place, elements.count(), size_of::<[u32; N]>())?;
+        let decode = |(_, element): (usize, &[u8])| {
+            std::array::from_fn(|lane| component::index(component, &element[lane * component.size()..]))
+        };
+        Ok(elements.iter().map(decode).collect())
+    }
+
+    /// Indices below `bound`, the number of vertices.
+    pub(super) fn indices(self, elements: &Elements, place: &str, bound: usize) -> Result<Vec<u32>, Error> {
+        let indices = self.integers::<1>(elements, place)?;
+        match indices.iter().position(|[index]| *index as usize >= bound) {
+            Some(i) => {
+                let [index] = indices[i];
                 let message =
                     format!("element {i} is {index}; expected an index below {bound}, the number of vertices");
                 Err(self.source.invalid(place, message))
             }
+            None => Ok(indices.into_flattened()),
+        }
+    }
+
+    /// How the elements of accessor `number`, which `place` refers to, are stored.
+    pub(super) fn layout(self, number: usize, place: &str) -> Result<Layout, Error> {
+        let accessor = self.source.get(&self.source.root.accessors, number, "accessor", place)?;
+        let component = match accessor.component_type {
+            Checked::Valid(c) => Some(c.0),
+            Checked::Invalid => None,
         };
-        elements.bytes.chunks_exact(elements.size).enumerate().map(decode).collect()
+        let lanes = match accessor.type_ {
+            Checked::Valid(Type::Scalar) => Some(1),
+            Checked::Valid(Type::Vec2) => Some(2),
+            Checked::Valid(Type::Vec3) => Some(3),
+            Checked::Valid(Type::Vec4) => Some(4),
+            // Columns of other matrices may be padded; none of them has a use.
+            Checked::Valid(Type::Mat4) => Some(16),
+            _ => None,
+        };
+        match (component, lanes) {
+            (Some(component), Some(lanes)) => Ok(Layout { component, lanes, normalized: accessor.normalized }),
+            _ => Err(self.source.invalid(place, format!("is {}", describe(lanes, component, accessor.normalized)))),
+        }
     }
 
-    /// Number of lanes of an accessor, to choose between VEC3 and VEC4.
-    pub(super) fn lanes(&self, accessor: usize) -> Option<usize> {
-        self.source.root.accessors.get(accessor).and_then(lanes)
-    }
-
-    /// The raw elements, in range of their buffer.
-    fn elements(&self, accessor: &Accessor, number: usize) -> Result<Elements<'_>, Error> {
+    /// The elements of accessor `number`, which `place` refers to, in range of their buffer.
+    pub(super) fn elements(self, number: usize, place: &str) -> Result<Elements<'b>, Error> {
+        let layout = self.layout(number, place)?;
+        let accessor = self.source.get(&self.source.root.accessors, number, "accessor", place)?;
         let place = format!("/accessors/{number}");
-        let (Some(component), Some(lanes)) = (component(accessor), lanes(accessor)) else {
-            return Err(self.source.invalid(place, format!("is {}", describe(accessor))));
-        };
-        let size = component.size() * lanes;
+        let size = layout.size();
         let count = self.count(accessor.count.0, size, &format!("{place}/count"))?;
         let offset = accessor.byte_offset.unwrap_or_default().0;
 
         // Take the elements out of their view, without a copy where they are packed already.
         let mut bytes = match accessor.buffer_view {
             Some(view) => {
-                let view = self.buffers.view(view.value(), &format!("{place}/bufferView"), &self.budget)?;
+                let view = self.buffers.view(view.value(), &format!("{place}/bufferView"), self.budget)?;
                 self.packed(view.bytes, view.stride, offset, count, size, &place)?
             }
             None if accessor.sparse.is_some() => {
@@ -108,18 +177,18 @@ impl Reader<'_> {
         if let Some(sparse) = &accessor.sparse {
             self.substitute(sparse, bytes.to_mut(), count, size, &format!("{place}/sparse"))?;
         }
-        Ok(Elements { bytes, component, size })
+        Ok(Elements { bytes, layout })
     }
 
     /// `count` as a usable number: positive, and `count * size` within what memory can address.
-    fn count(&self, count: u64, size: usize, place: &str) -> Result<usize, Error> {
+    fn count(self, count: u64, size: usize, place: &str) -> Result<usize, Error> {
         let fits = usize::try_from(count).ok().filter(|n| *n > 0 && n.checked_mul(size).is_some());
         fits.ok_or_else(|| self.source.invalid(place, format!("is {count}; expected at least 1 that fits its buffer")))
     }
 
     /// `count` elements of `size` bytes, the first at `offset`, the others `stride` bytes apart.
-    fn packed<'b>(
-        &self,
+    fn packed(
+        self,
         view: &'b [u8],
         stride: Option<usize>,
         offset: u64,
@@ -153,7 +222,7 @@ impl Reader<'_> {
 
     /// Puts the values of a sparse accessor in their places.
     fn substitute(
-        &self,
+        self,
         sparse: &gltf::json::accessor::sparse::Sparse,
         bytes: &mut [u8],
         count: usize,
@@ -167,7 +236,7 @@ impl Reader<'_> {
         let width = component.0.size();
         let n = self.count(sparse.count.0, size.max(width), &format!("{place}/count"))?;
         let read = |view: usize, offset: u64, size: usize, place: &str| {
-            let view = self.buffers.view(view, &format!("{place}/bufferView"), &self.budget)?;
+            let view = self.buffers.view(view, &format!("{place}/bufferView"), self.budget)?;
             self.packed(view.bytes, None, offset, n, size, place)
         };
         let at = format!("{place}/indices");
@@ -175,7 +244,7 @@ impl Reader<'_> {
         let from = format!("{place}/values");
         let values = read(sparse.values.buffer_view.value(), sparse.values.byte_offset.0, size, &from)?;
         for (i, (at_bytes, value)) in indices.chunks_exact(width).zip(values.chunks_exact(size)).enumerate() {
-            let target = index(component.0, at_bytes) as usize;
+            let target = component::index(component.0, at_bytes) as usize;
             if target >= count {
                 let message = format!("element {i} is {target}; expected an index below {count}");
                 return Err(self.source.invalid(at, message));
@@ -186,38 +255,19 @@ impl Reader<'_> {
     }
 }
 
-fn component(a: &Accessor) -> Option<ComponentType> {
-    match a.component_type {
-        Checked::Valid(c) => Some(c.0),
-        Checked::Invalid => None,
+/// The name of a type with so many components.
+fn kind(lanes: Option<usize>) -> &'static str {
+    match lanes {
+        Some(1) => "SCALAR",
+        Some(2) => "VEC2",
+        Some(3) => "VEC3",
+        Some(4) => "VEC4",
+        Some(16) => "MAT4",
+        _ => "an unknown type",
     }
 }
 
-/// Number of components of scalars and vectors; no attribute is a matrix.
-fn lanes(a: &Accessor) -> Option<usize> {
-    match a.type_ {
-        Checked::Valid(Type::Scalar) => Some(1),
-        Checked::Valid(Type::Vec2) => Some(2),
-        Checked::Valid(Type::Vec3) => Some(3),
-        Checked::Valid(Type::Vec4) => Some(4),
-        _ => None,
-    }
-}
-
-fn describe(a: &Accessor) -> String {
-    let component = component(a).map_or("an unknown componentType".into(), |c| format!("{c:?}").to_lowercase());
-    let lanes = match a.type_ {
-        Checked::Valid(t) => format!("{t:?}").to_uppercase(),
-        Checked::Invalid => "an unknown type".into(),
-    };
-    format!("{lanes} of {}{component}", if a.normalized { "normalised " } else { "" })
-}
-
-/// A little-endian unsigned integer of 1, 2 or 4 bytes.
-fn index(component: ComponentType, b: &[u8]) -> u32 {
-    match component {
-        ComponentType::U8 => u32::from(b[0]),
-        ComponentType::U16 => u32::from(u16::from_le_bytes([b[0], b[1]])),
-        _ => u32::from_le_bytes([b[0], b[1], b[2], b[3]]),
-    }
+fn describe(lanes: Option<usize>, component: Option<ComponentType>, normalized: bool) -> String {
+    let component = component.map_or("an unknown componentType".into(), |c| format!("{c:?}").to_lowercase());
+    format!("{} of {}{component}", kind(lanes), if normalized { "normalised " } else { "" })
 }

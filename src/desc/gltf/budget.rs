@@ -42,6 +42,11 @@ impl Budget {
         })
     }
 
+    /// Bytes that can still be decoded.
+    pub(super) fn left(&self) -> u64 {
+        self.decoded.get()
+    }
+
     /// Pays for a file that was read, and grants its growth.
     pub(super) fn external(&self, source: Source, place: &str, bytes: usize) -> Result<(), Error> {
         self.decoded.set(self.decoded.get().saturating_add(GROWTH * bytes as u64));

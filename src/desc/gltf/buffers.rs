@@ -2,8 +2,9 @@
 
 use super::budget::Budget;
 use super::uri::{self, Uri};
-use super::{Resolve, Source};
+use super::{Resolve, Source, meshopt};
 use crate::desc::Error;
+use gltf::json::buffer::View;
 use std::borrow::Cow;
 use std::cell::OnceCell;
 
@@ -14,10 +15,12 @@ pub(super) struct Buffers<'a> {
     bin: Option<&'a [u8]>,
     resolve: Resolve<'a>,
     loaded: Vec<OnceCell<Cow<'a, [u8]>>>,
+    /// Of the views that are compressed.
+    decompressed: Vec<OnceCell<Vec<u8>>>,
 }
 
 /// A range of a buffer.
-pub(super) struct View<'a> {
+pub(super) struct Bytes<'a> {
     /// Its bytes.
     pub bytes: &'a [u8],
     /// Bytes from one element to the next, where the elements are interleaved with others.
@@ -28,26 +31,54 @@ impl<'a> Buffers<'a> {
     /// None of them loaded yet.
     pub(super) fn new(source: Source<'a>, bin: Option<&'a [u8]>, resolve: Resolve<'a>) -> Self {
         let loaded = source.root.buffers.iter().map(|_| OnceCell::new()).collect();
-        Self { source, bin, resolve, loaded }
+        let decompressed = source.root.buffer_views.iter().map(|_| OnceCell::new()).collect();
+        Self { source, bin, resolve, loaded, decompressed }
     }
 
     /// The buffer view `index`, which `place` refers to.
-    pub(super) fn view(&self, index: usize, place: &str, budget: &Budget) -> Result<View<'_>, Error> {
+    pub(super) fn view(&self, index: usize, place: &str, budget: &Budget) -> Result<Bytes<'_>, Error> {
         let source = self.source;
         let view = source.get(&source.root.buffer_views, index, "buffer view", place)?;
         let place = format!("/bufferViews/{index}");
-        let buffer = self.buffer(view.buffer.value(), &format!("{place}/buffer"), budget)?;
-        let (start, length) = (view.byte_offset.unwrap_or_default().0, view.byte_length.0);
-        let range = start.checked_add(length).and_then(|end| Some(start.try_into().ok()?..end.try_into().ok()?));
-        let bytes = range.and_then(|r: std::ops::Range<usize>| buffer.get(r)).ok_or_else(|| {
-            let message = format!("has {length} bytes from byte {start}; its buffer has {}", buffer.len());
-            source.invalid(&place, message)
-        })?;
+        let bytes = match self.decompressed(index, view, &place, budget)? {
+            Some(bytes) => bytes,
+            None => {
+                let range = [view.byte_offset.unwrap_or_default().0, view.byte_length.0];
+                self.range(view.buffer.value(), range, &place, budget)?
+            }
+        };
         let stride = view.byte_stride.map(|s| s.0);
         if let Some(stride) = stride.filter(|s| !(4..=252).contains(s)) {
             return Err(source.invalid(format!("{place}/byteStride"), format!("is {stride}; expected 4 to 252")));
         }
-        Ok(View { bytes, stride })
+        Ok(Bytes { bytes, stride })
+    }
+
+    /// The bytes of the view `index` if it is compressed.
+    fn decompressed(&self, index: usize, view: &View, place: &str, budget: &Budget) -> Result<Option<&[u8]>, Error> {
+        let cell = &self.decompressed[index];
+        if cell.get().is_none()
+            && let Some(bytes) = meshopt::decompress(self, self.source, view, place, budget)?
+        {
+            cell.get_or_init(|| bytes);
+        }
+        Ok(cell.get().map(Vec::as_slice))
+    }
+
+    /// `length` bytes of a buffer from `start`, as what stands at `place` asks for them.
+    pub(super) fn range(
+        &self,
+        buffer: usize,
+        [start, length]: [u64; 2],
+        place: &str,
+        budget: &Budget,
+    ) -> Result<&[u8], Error> {
+        let buffer = self.buffer(buffer, &format!("{place}/buffer"), budget)?;
+        let range = start.checked_add(length).and_then(|end| Some(start.try_into().ok()?..end.try_into().ok()?));
+        range.and_then(|r: std::ops::Range<usize>| buffer.get(r)).ok_or_else(|| {
+            let message = format!("has {length} bytes from byte {start}; its buffer has {}", buffer.len());
+            self.source.invalid(place, message)
+        })
     }
 
     /// The buffer `index`, `byteLength` bytes long.

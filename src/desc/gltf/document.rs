@@ -53,7 +53,6 @@ fn version(document: &Value, file: &Path) -> Result<(), Error> {
 fn culprit(document: &Value) -> Option<(String, String)> {
     use json::{buffer, mesh, scene, texture};
     list::<json::Accessor>(document, "", "accessors")
-        .or_else(|| list::<json::Animation>(document, "", "animations"))
         .or_else(|| list::<buffer::Buffer>(document, "", "buffers"))
         .or_else(|| list::<buffer::View>(document, "", "bufferViews"))
         .or_else(|| list::<json::Camera>(document, "", "cameras"))

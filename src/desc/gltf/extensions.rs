@@ -1,10 +1,12 @@
 //! Which extensions are known, and what becomes of them: one table, for what is refused, what is noted and what
 //! `radianza info --conformance` says.
 
+use super::Source;
 use super::notes::Notes;
 use crate::desc::Error;
 use Status::{Approximated, Carried, Honoured, Ignored};
-use serde_json::Value;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 use std::path::Path;
 
 /// What becomes of an extension here.
@@ -48,12 +50,12 @@ const fn row(name: &'static str, status: Status, adds: &'static str) -> Extensio
 pub const EXTENSIONS: &[Extension] = &[
     row("EXT_lights_ies", Honoured, "measured distributions of lights"),
     row("EXT_lights_image_based", Honoured, "an environment of prefiltered images"),
-    row("EXT_mesh_gpu_instancing", Ignored, "many places of a mesh in one node"),
-    row("EXT_meshopt_compression", Ignored, "compressed buffers"),
+    row("EXT_mesh_gpu_instancing", Honoured, "many places of a mesh in one node"),
+    row("EXT_meshopt_compression", Honoured, "compressed buffers"),
     row("EXT_texture_avif", Ignored, "images in AVIF"),
     row("EXT_texture_webp", Honoured, "images in WebP"),
-    row("KHR_animation_pointer", Ignored, "animation of any property"),
-    row("KHR_draco_mesh_compression", Ignored, "compressed geometry"),
+    row("KHR_animation_pointer", Honoured, "animation of any property"),
+    row("KHR_draco_mesh_compression", Honoured, "compressed geometry"),
     row("KHR_lights_punctual", Honoured, "point, spot and directional lights"),
     row("KHR_materials_anisotropy", Ignored, "highlights that are longer one way"),
     row("KHR_materials_clearcoat", Ignored, "a clear coat over the material"),
@@ -73,10 +75,10 @@ pub const EXTENSIONS: &[Extension] = &[
         ),
         "materials without lighting",
     ),
-    row("KHR_materials_variants", Ignored, "other materials for the same meshes"),
+    row("KHR_materials_variants", Honoured, "other materials for the same meshes"),
     row("KHR_materials_volume", Honoured, "what light passes inside closed meshes"),
-    row("KHR_mesh_quantization", Ignored, "vertices of fewer bits"),
-    row("KHR_node_visibility", Ignored, "nodes that are not shown"),
+    row("KHR_mesh_quantization", Honoured, "vertices of fewer bits"),
+    row("KHR_node_visibility", Honoured, "nodes that are not shown"),
     row("KHR_texture_basisu", Honoured, "images in KTX2 with Basis Universal"),
     row("KHR_texture_transform", Honoured, "texture coordinates that are moved, turned and scaled"),
     row("KHR_xmp", Carried, "metadata, as written before KHR_xmp_json_ld"),
@@ -152,6 +154,27 @@ pub(super) fn uses(document: &Value, file: &Path) -> Result<Vec<Use>, Error> {
         }
     }
     Ok(uses)
+}
+
+impl Source<'_> {
+    /// What the extension `name` says of the object at `place`, whose untyped extensions `others` are.
+    pub(super) fn extension<T: DeserializeOwned>(
+        &self,
+        others: Option<&Map<String, Value>>,
+        name: &str,
+        place: &str,
+    ) -> Result<Option<T>, Error> {
+        let Some(value) = others.and_then(|others| others.get(name)) else { return Ok(None) };
+        match T::deserialize(value) {
+            Ok(extension) => Ok(Some(extension)),
+            Err(e) => Err(self.invalid(format!("{place}/extensions/{name}"), e.to_string())),
+        }
+    }
+
+    /// Whether the document says that it uses the extension `name`.
+    pub(super) fn uses(&self, name: &str) -> bool {
+        self.root.extensions_used.iter().chain(&self.root.extensions_required).any(|used| used == name)
+    }
 }
 
 /// The list of strings under `key`; empty where the document has none.

@@ -13,7 +13,17 @@
 //! | `EXT_lights_image_based` | the environment: the first level of the specular cube map |
 //! | `KHR_xmp_json_ld` | the packet of the asset, in [`Scene::metadata`] and so in the header of every image |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
-//! | skins, morph targets, animations | the static pose, and a note |
+//! | `EXT_mesh_gpu_instancing` | an object per instance; `KHR_node_visibility` leaves objects and lights out, not cameras |
+//! | morph targets | the primitive displaced by the node's weights, else the mesh's: a mesh of its own for each set of weights |
+//! | skins | the primitive bent by its joints, in world space: a mesh of its own for each skin |
+//! | animations | none, or all together at the time of [`Options`](super::Options): see below |
+//! | `KHR_materials_variants` | the materials of the variant of [`Options`](super::Options) |
+//! | `KHR_mesh_quantization`, `EXT_meshopt_compression`, `KHR_draco_mesh_compression` | what they encode |
+//!
+//! Time: where none is asked for, the pose that the nodes state. Else all animations of the file play together from
+//! the same zero, as if it were one; where two of them drive the same property the last one counts, and a note says so.
+//! Before its first key a curve has its first value, and behind its last key its last. `KHR_animation_pointer` animates
+//! whatever the Asset Object Model lists; what is not in the document stays as it is, and is noted.
 //!
 //! Photometric numbers (cd, lx, cd/m²) are carried one to one into the linear RGB lanes. What the file lacks (camera,
 //! light) stays empty here. What becomes of an extension says [`EXTENSIONS`]; one that is ignored is an error where the file requires
@@ -23,69 +33,111 @@
 //! what is decoded is bounded by the size of the input. Errors name the JSON pointer.
 
 mod accessor;
+mod animation;
 mod budget;
 mod buffers;
 mod camera;
+mod component;
 mod container;
 mod dielectric;
 mod document;
+mod draco;
 mod extensions;
 mod image;
 mod image_based;
+mod instances;
 mod interior;
 mod light;
 mod material;
 mod mesh;
+mod meshopt;
 mod metadata;
+mod morph;
 mod node;
 mod normals;
 mod notes;
 mod profile;
+mod skin;
 mod slot;
-
 mod tangents;
 mod texture;
 mod triangles;
 mod uri;
 mod uv_sets;
+mod variants;
+mod vertices;
 
 pub use extensions::{EXTENSIONS, Extension, Status, Use, extension, honoured};
 
 use super::files::{self, Folder};
-use super::{Error, Scene};
+use super::{Error, Options, Scene};
+use accessor::Accessors;
 use budget::Budget;
 use buffers::Buffers;
+use glam::DMat4;
 use gltf::json;
 use notes::Notes;
+use serde_json::{Value, json};
 use std::collections::HashMap;
 use std::path::Path;
+use std::rc::Rc;
 use uv_sets::UvSets;
 
 /// How other files are read: by the name in the document, and the JSON pointer for the error.
 pub type Resolve<'a> = &'a dyn Fn(&str, &str) -> Result<Vec<u8>, Error>;
 
-/// Reads a `.gltf` or `.glb` file, and what it refers to inside its folder.
+/// Reads a `.gltf` or `.glb` file, and what it refers to inside its folder, as its nodes and primitives state it.
 pub fn read(path: &Path) -> Result<Scene, Error> {
+    read_with(path, &Options::default())
+}
+
+/// Reads a `.gltf` or `.glb` file at a time, in a variant.
+pub fn read_with(path: &Path, options: &Options) -> Result<Scene, Error> {
     let folder = Folder::of(path);
-    parse(&files::read(path)?, path, &|name, place| folder.read(name, place))
+    parse_with(&files::read(path)?, path, &|name, place| folder.read(name, place), options)
 }
 
 /// Reads the bytes of a `.gltf` or `.glb` file; `file` is its name in messages.
 pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error> {
+    parse_with(bytes, file, resolve, &Options::default())
+}
+
+/// Reads the bytes of a `.gltf` or `.glb` file at a time, in a variant; one that it does not have is passed over.
+pub fn parse_with(bytes: &[u8], file: &Path, resolve: Resolve, options: &Options) -> Result<Scene, Error> {
     let container = container::split(bytes, file)?;
     let mut notes = Notes::default();
-    let document = document::parse(container.json, file, &mut notes)?;
-    let root = document::typed(&document, file)?;
-    let source = Source { file, root: &root };
+    let mut document = document::parse(container.json, file, &mut notes)?;
+    let animations = document.as_object_mut().and_then(|d| d.remove("animations")).unwrap_or(json!([]));
+    let duration = animation::duration(&animations, &document);
+
+    // The document at the time asked for is a document like any other. Buffers are the same at all times.
+    let rest = document::typed(&document, file)?;
+    let budget = Budget::of(bytes.len());
+    let buffers = Buffers::new(Source { file, root: &rest, json: &Value::Null }, container.bin, resolve);
+    let posed = match options.at.filter(|_| duration.is_some()) {
+        Some(time) => {
+            let source = Source { file, root: &rest, json: &Value::Null };
+            let accessors = Accessors { source, buffers: &buffers, budget: &budget };
+            animation::pose(&mut document, &animations, time, accessors, &mut notes)?;
+            Some(document::typed(&document, file)?)
+        }
+        None => None,
+    };
+    drop(animations);
+    let source = Source { file, root: posed.as_ref().unwrap_or(&rest), json: &document };
+    let variants: Vec<String> = variants::names(source)?.into_iter().map(String::from).collect();
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut reader = Reader {
         source,
-        buffers: Buffers::new(source, container.bin, resolve),
-        budget: Budget::of(bytes.len()),
+        buffers,
+        budget,
         notes,
+        variant: options.variant.as_ref().and_then(|name| variants.iter().position(|v| v == name)),
         scene: Scene {
             name,
             source: Some(file.into()),
+            variants,
+            duration,
             extensions: extensions::uses(&document, file)?,
             metadata: metadata::packets(&document, file)?,
             ..Scene::default()
@@ -98,10 +150,12 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
         geometry: HashMap::new(),
         meshes: HashMap::new(),
         profiles: HashMap::new(),
+        worlds: Vec::new(),
+        skins: HashMap::new(),
     };
     reader.nodes()?;
     reader.image_based()?;
-    reader.still_life();
+    reader.choices(options);
     Ok(Scene { notes: reader.notes.finish(), ..reader.scene })
 }
 
@@ -110,6 +164,8 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
 struct Source<'a> {
     file: &'a Path,
     root: &'a json::Root,
+    /// The document as it is written, for what has no type.
+    json: &'a Value,
 }
 
 impl<'a> Source<'a> {
@@ -147,29 +203,32 @@ struct Reader<'a> {
     images: HashMap<usize, image::Decoded>,
     /// What a primitive is made of → shape of the scene, if a triangle is left of it.
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
-    /// Mesh of the document → its primitives as shapes with materials.
-    meshes: HashMap<usize, std::rc::Rc<[mesh::Part]>>,
+    /// Mesh of the document and its pose → its primitives as shapes with materials.
+    meshes: HashMap<(usize, mesh::Pose), Rc<[mesh::Part]>>,
+    /// Node → world, of those that are in the scene.
+    worlds: Vec<Option<DMat4>>,
+    /// Skin of the document → mesh → world, for each of its joints.
+    skins: HashMap<usize, Rc<[DMat4]>>,
+    /// The variant of the document that is chosen.
+    variant: Option<usize>,
     /// Light profile of the document, read.
     profiles: HashMap<usize, std::sync::Arc<super::ies::Profile>>,
 }
 
-impl Reader<'_> {
-    /// Says what moves in the file and does not move here.
-    fn still_life(&mut self) {
-        let root = self.source.root;
-        if !root.animations.is_empty() {
-            self.notes.add(
-                "animations are not played: the pose that the nodes state is used",
-                "/animations/0",
-                root.animations.len(),
-            );
+impl<'a> Reader<'a> {
+    /// What accessors are read with.
+    fn accessors(&self) -> Accessors<'_, 'a> {
+        Accessors { source: self.source, buffers: &self.buffers, budget: &self.budget }
+    }
+
+    /// Says what else the file holds.
+    fn choices(&mut self, options: &Options) {
+        if let Some(end) = self.scene.duration.filter(|_| options.at.is_none()) {
+            self.notes.say(format!("nothing moves: of animations of {end} s the pose that the nodes state is used"));
         }
-        if root.nodes.iter().any(|n| n.skin.is_some()) {
-            self.notes.add(
-                "skins are not applied: the unskinned mesh is used where its node is",
-                "/skins/0",
-                root.skins.len().max(1),
-            );
+        if self.variant.is_none() && !self.scene.variants.is_empty() {
+            let names: Vec<_> = self.scene.variants.iter().map(|name| format!("`{name}`")).collect();
+            self.notes.say(format!("of the variants {} none is chosen", names.join(", ")));
         }
     }
 

@@ -1,6 +1,7 @@
 //! The node hierarchy, walked once.
 
 use super::Reader;
+use super::mesh::Pose;
 use crate::desc::{Error, Object};
 use crate::math::Transform;
 use glam::{DMat4, DQuat, DVec3, DVec4};
@@ -14,12 +15,13 @@ impl Reader<'_> {
         let root = self.source.root;
         let mut stack = self.roots()?;
         stack.reverse();
-        let mut seen = vec![false; root.nodes.len()];
+        self.worlds = vec![None; root.nodes.len()];
+        let mut placed = Vec::new();
 
         // Depth first, in the order of the file, with the transform of the parent in hand.
-        while let Some(Visit { node: index, parent, place }) = stack.pop() {
+        while let Some(Visit { node: index, parent, visible, place }) = stack.pop() {
             let node = self.source.get(&root.nodes, index, "node", &place)?;
-            if std::mem::replace(&mut seen[index], true) {
+            if self.worlds[index].is_some() {
                 let message = format!("refers to node {index}, which is reached twice; expected a tree");
                 return Err(self.source.invalid(place, message));
             }
@@ -29,11 +31,29 @@ impl Reader<'_> {
                 let message = "has a matrix in the world that is not finite";
                 return Err(self.source.invalid(place, message));
             }
-            self.content(node, index, &world, &place)?;
+            self.worlds[index] = Some(world);
+            let visible = visible && self.visible(node, &place)?;
             let children = node.children.as_deref().unwrap_or_default();
-            stack.extend(visits(children, &format!("{place}/children"), world).rev());
+            stack.extend(visits(children, &format!("{place}/children"), world, visible).rev());
+            placed.push((index, world, visible));
+        }
+
+        // Fill the world once all joints stand in it.
+        for (index, world, visible) in placed {
+            self.content(&root.nodes[index], index, &world, visible)?;
         }
         Ok(())
+    }
+
+    /// KHR_node_visibility: whether the node itself says that it is seen.
+    fn visible(&mut self, node: &Node, place: &str) -> Result<bool, Error> {
+        let others = node.extensions.as_ref().map(|e| &e.others);
+        let said: Option<Visibility> = self.source.extension(others, "KHR_node_visibility", place)?;
+        let visible = said.is_none_or(|said| said.visible);
+        if !visible {
+            self.notes.at(place, "`KHR_node_visibility`: nodes that are not visible are left out, and all below them");
+        }
+        Ok(visible)
     }
 
     /// The roots of the default scene, or of the first, or of all.
@@ -45,7 +65,7 @@ impl Reader<'_> {
             if root.scenes.len() > 1 {
                 self.notes.say(format!("of {} scenes, number {index} is read", root.scenes.len()));
             }
-            return Ok(visits(&scene.nodes, &format!("/scenes/{index}/nodes"), DMat4::IDENTITY).collect());
+            return Ok(visits(&scene.nodes, &format!("/scenes/{index}/nodes"), DMat4::IDENTITY, true).collect());
         }
         let mut child = vec![false; root.nodes.len()];
         for index in root.nodes.iter().flat_map(|n| n.children.iter().flatten()) {
@@ -54,7 +74,8 @@ impl Reader<'_> {
             }
         }
         let roots = (0..root.nodes.len()).filter(|i| !child[*i]);
-        Ok(roots.map(|node| Visit { node, parent: DMat4::IDENTITY, place: format!("/nodes/{node}") }).collect())
+        let visit = |node| Visit { node, parent: DMat4::IDENTITY, visible: true, place: format!("/nodes/{node}") };
+        Ok(roots.map(visit).collect())
     }
 
     /// Node → parent.
@@ -90,19 +111,66 @@ impl Reader<'_> {
     }
 
     /// Mesh, camera and light of one node.
-    fn content(&mut self, node: &Node, index: usize, world: &DMat4, place: &str) -> Result<(), Error> {
-        if let Some(mesh) = node.mesh.map(|m| m.value()) {
-            let parts = self.mesh(mesh, &format!("{place}/mesh"))?;
-            let to_world = world.as_mat4();
-            if Transform::from_mat4(to_world).is_none() {
-                self.notes.at(place, "objects that are scaled to nothing are left out");
-            } else {
-                self.budget.decode(self.source, place, parts.len(), size_of::<Object>() + 64)?;
-                let of_file = self.source.root.meshes.get(mesh).map(|m| &m.extras);
-                let closed = [Some(&node.extras), of_file].into_iter().flatten().any(declares_closed);
-                let of_mesh = || self.source.root.meshes.get(mesh).and_then(|m| m.name.clone());
-                let name = node.name.clone().or_else(of_mesh).unwrap_or_else(|| format!("node {index}"));
-                self.scene.objects.extend(parts.iter().map(|part| Object {
+    fn content(&mut self, node: &Node, index: usize, world: &DMat4, visible: bool) -> Result<(), Error> {
+        let place = format!("/nodes/{index}");
+        if visible && let Some(mesh) = node.mesh.map(|m| m.value()) {
+            self.objects(node, index, mesh, world, &place)?;
+        }
+        // Cameras do not care whether they are seen.
+        if let Some(camera) = node.camera {
+            self.camera(camera.value(), world, node.name.as_deref(), &place)?;
+        }
+        let light = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref());
+        if let Some(light) = light.filter(|_| visible) {
+            self.light(light.light.value(), world, &place)?;
+        }
+        let light = node.extensions.as_ref().and_then(|e| e.others.get("EXT_lights_ies"));
+        if let Some(light) = light.filter(|_| visible) {
+            self.profile_light(light, world, &place)?;
+        }
+        Ok(())
+    }
+
+    /// The mesh of one node, once for each of its instances.
+    fn objects(&mut self, node: &Node, index: usize, mesh: usize, world: &DMat4, place: &str) -> Result<(), Error> {
+        let weights = node.weights.as_ref().or(self.source.root.meshes.get(mesh).and_then(|m| m.weights.as_ref()));
+        let weights = weights.map_or(&[][..], Vec::as_slice);
+        if let Some(i) = weights.iter().position(|w| !w.is_finite()) {
+            let message = format!("element {i} is {}; expected finite numbers", weights[i]);
+            return Err(self.source.invalid(format!("{place}/weights"), message));
+        }
+        let moved = weights.iter().any(|w| *w != 0.0);
+        let bits = || weights.iter().map(|w| w.to_bits()).collect();
+        let pose = Pose { weights: if moved { bits() } else { Vec::new() }, skin: node.skin.map(|s| s.value()) };
+        let parts = self.mesh(mesh, &pose, &format!("{place}/mesh"))?;
+        let instances = self.instances(node, place)?;
+        let of_file = self.source.root.meshes.get(mesh);
+        let closed = [Some(&node.extras), of_file.map(|m| &m.extras)].into_iter().flatten().any(declares_closed);
+        let name = node.name.clone().or_else(|| of_file.and_then(|m| m.name.clone()));
+        let name = name.unwrap_or_else(|| format!("node {index}"));
+
+        for part in parts.iter() {
+            // What hangs on a skin stands in the world already.
+            let list = match (&instances, part.skinned) {
+                (_, true) => &[DMat4::IDENTITY][..],
+                (Some(list), _) => list,
+                (None, _) => &[DMat4::IDENTITY],
+            };
+            if part.skinned && instances.is_some() {
+                self.notes.at(place, "meshes on skins are not instanced");
+            }
+            self.budget.decode(self.source, place, list.len(), size_of::<Object>() + 64)?;
+            for instance in list {
+                let to_world = if part.skinned { *instance } else { *world * *instance }.as_mat4();
+                if !to_world.is_finite() {
+                    let message = "has an instance whose matrix in the world is not finite";
+                    return Err(self.source.invalid(place, message));
+                }
+                if Transform::from_mat4(to_world).is_none() {
+                    self.notes.at(place, "objects that are scaled to nothing are left out");
+                    continue;
+                }
+                self.scene.objects.push(Object {
                     name: name.clone(),
                     shape: part.shape,
                     to_world,
@@ -110,20 +178,22 @@ impl Reader<'_> {
                     emission: None,
                     reversed: false,
                     closed,
-                }));
+                });
             }
-        }
-        if let Some(camera) = node.camera {
-            self.camera(camera.value(), world, node.name.as_deref(), place)?;
-        }
-        if let Some(light) = node.extensions.as_ref().and_then(|e| e.khr_lights_punctual.as_ref()) {
-            self.light(light.light.value(), world, place)?;
-        }
-        if let Some(light) = node.extensions.as_ref().and_then(|e| e.others.get("EXT_lights_ies")) {
-            self.profile_light(light, world, place)?;
         }
         Ok(())
     }
+}
+
+/// KHR_node_visibility.
+#[derive(serde::Deserialize)]
+struct Visibility {
+    #[serde(default = "seen")]
+    visible: bool,
+}
+
+fn seen() -> bool {
+    true
 }
 
 /// Whether a node or mesh says `"extras": {"closed": true}`: its surface bounds a volume.
@@ -137,10 +207,14 @@ struct Visit {
     node: usize,
     /// Parent → world.
     parent: DMat4,
+    /// Whether all above it are visible.
+    visible: bool,
     /// Where the document refers to the node.
     place: String,
 }
 
-fn visits(list: &[Index<Node>], place: &str, parent: DMat4) -> impl DoubleEndedIterator<Item = Visit> {
-    list.iter().enumerate().map(move |(i, n)| Visit { node: n.value(), parent, place: format!("{place}/{i}") })
+fn visits(list: &[Index<Node>], place: &str, parent: DMat4, visible: bool) -> impl DoubleEndedIterator<Item = Visit> {
+    let visit =
+        move |(i, n): (usize, &Index<Node>)| Visit { node: n.value(), parent, visible, place: format!("{place}/{i}") };
+    list.iter().enumerate().map(visit)
 }

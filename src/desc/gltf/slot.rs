@@ -141,7 +141,7 @@ mod tests {
     #[test]
     fn slots_in_plain_json() {
         let root = json::Root::default();
-        let source = Source { file: std::path::Path::new("x.gltf"), root: &root };
+        let source = Source { file: std::path::Path::new("x.gltf"), root: &root, json: &serde_json::Value::Null };
         let transform = serde_json::json!({ "offset": [1, 2], "scale": [3, 4], "texCoord": 5 });
         let plain =
             serde_json::json!({ "index": 7, "texCoord": 1, "extensions": { "KHR_texture_transform": transform } });

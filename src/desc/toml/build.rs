@@ -5,7 +5,7 @@ use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
 use crate::desc::files::Folder;
-use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Scene, TextureRef};
+use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Options, Scene, TextureRef};
 use crate::desc::{ies, image_file, load, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
@@ -19,6 +19,7 @@ const MAX_PLACED: usize = 1 << 30;
 pub(super) struct Builder<'a> {
     file: &'a SceneFile,
     folder: Folder,
+    options: &'a Options,
     /// What there is so far.
     pub(super) scene: Scene,
     images: HashMap<String, usize>,
@@ -45,10 +46,11 @@ struct Part {
 
 impl<'a> Builder<'a> {
     /// Nothing yet.
-    pub(super) fn new(file: &'a SceneFile, folder: Folder) -> Self {
+    pub(super) fn new(file: &'a SceneFile, folder: Folder, options: &'a Options) -> Self {
         Self {
             file,
             folder,
+            options,
             scene: Scene::default(),
             images: HashMap::new(),
             profiles: HashMap::new(),
@@ -178,7 +180,7 @@ impl<'a> Builder<'a> {
             return Ok(part.clone());
         }
         let path = self.folder.resolve(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let content = load::read_model(&path).map_err(|mut e| {
+        let content = load::read_model(&path, self.options).map_err(|mut e| {
             e.message = match e.place.as_str() {
                 "" => format!("`{}`: {}", file.value, e.message),
                 place => format!("`{}`, {place}: {}", file.value, e.message),

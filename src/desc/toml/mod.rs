@@ -67,19 +67,24 @@ pub use schema::schema;
 
 use self::read::{Fault, Read};
 use super::files::{self, Folder};
-use super::{Error, Scene};
+use super::{Error, Options, Scene};
 use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue};
 use std::path::Path;
 
 /// Reads a scene file.
 pub fn read(path: &Path) -> Result<Scene, Error> {
+    read_with(path, &Options::default())
+}
+
+/// Reads a scene file; the options hold for the glTF files that it places.
+pub fn read_with(path: &Path, options: &Options) -> Result<Scene, Error> {
     let bytes = files::read(path)?;
     let text = String::from_utf8(bytes).map_err(|e| {
         let line = e.as_bytes()[..e.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
         Error::invalid(path, format!("{line}:1"), "is not UTF-8 text")
     })?;
-    parse(&text, path)
+    parse_with(&text, path, Folder::of(path), options)
 }
 
 /// The scene that `text` describes. Files that it names are looked for in the folder of `path`; errors name `path`.
@@ -89,7 +94,11 @@ pub fn parse(text: &str, path: &Path) -> Result<Scene, Error> {
 
 /// The scene that `text` describes. Files that it names are looked for in `folder`; errors name `path`.
 pub fn parse_in(text: &str, path: &Path, folder: Folder) -> Result<Scene, Error> {
-    let scene = tables(text).and_then(|file| build::Builder::new(&file, folder).build());
+    parse_with(text, path, folder, &Options::default())
+}
+
+fn parse_with(text: &str, path: &Path, folder: Folder, options: &Options) -> Result<Scene, Error> {
+    let scene = tables(text).and_then(|file| build::Builder::new(&file, folder, options).build());
     let mut scene = scene.map_err(|fault| fault.locate(path, text))?;
     if scene.name.is_empty() {
         scene.name = path.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
