@@ -9,6 +9,7 @@ pub mod files;
 mod frame_camera;
 pub mod gltf;
 pub mod image_file;
+mod layers;
 mod load;
 mod material;
 mod mesh_check;
@@ -25,6 +26,7 @@ pub use complete::{NO_LIGHT, complete};
 pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
+pub use layers::{Anisotropy, Clearcoat, Layers, Sheen};
 pub use load::load;
 pub use material::{
     Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,

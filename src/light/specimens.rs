@@ -28,7 +28,7 @@ pub fn specimens() -> Vec<Specimen> {
 
 /// Emission of linear RGB (2, 3, 1).
 fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides }
+    Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides, coat: None }
 }
 
 fn triangles() -> Vec<Specimen> {

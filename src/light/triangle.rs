@@ -49,8 +49,8 @@ impl TriangleLight {
             area,
             centroid,
             near2: NEAR * NEAR * radius2,
-            emitter,
             attributes: (!emitter.is_uniform()).then(|| Box::new(*attributes)),
+            emitter,
             flip,
         })
     }
@@ -79,7 +79,7 @@ impl TriangleLight {
         };
 
         let (uv, color) = self.appearance(weights);
-        let le = self.emitter.le(&uv, color, front, textures);
+        let le = self.emitter.le(&uv, color, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
             wi: sight.wi,
             distance: end,

@@ -88,11 +88,11 @@ fn required_extensions_that_are_not_honoured_are_named() {
     let mut d = Document::triangle();
     d.set(
         "/extensionsUsed",
-        json!(["KHR_materials_sheen", "KHR_draco_mesh_compression", "KHR_xmp_json_ld", "KHR_materials_ior"]),
+        json!(["KHR_materials_subsurface", "KHR_draco_mesh_compression", "KHR_xmp_json_ld", "KHR_materials_ior"]),
     );
     let scene = d.read().unwrap();
     assert_eq!(scene.notes.len(), 2, "{:?}", scene.notes);
-    assert!(scene.notes[0].starts_with("`KHR_materials_sheen` is not honoured yet"));
+    assert!(scene.notes[0].starts_with("`KHR_materials_subsurface` is not honoured yet"));
     d.set("/extensionsRequired", json!(["KHR_materials_ior", "KHR_draco_mesh_compression", "EXT_meshopt_compression"]));
     d.fails("/extensionsRequired/1", "`KHR_draco_mesh_compression`, `EXT_meshopt_compression`");
     assert_eq!(d.read().unwrap_err().kind, ErrorKind::Unsupported);

@@ -19,9 +19,11 @@
 //! what is decoded is bounded by the size of the input. Errors name the JSON pointer.
 
 mod accessor;
+mod anisotropy;
 mod budget;
 mod buffers;
 mod camera;
+mod clearcoat;
 mod container;
 mod dielectric;
 mod document;
@@ -32,6 +34,7 @@ mod mesh;
 mod node;
 mod normals;
 mod notes;
+mod sheen;
 mod slot;
 mod tangents;
 mod texture;

@@ -52,6 +52,7 @@ mod camera;
 mod color;
 mod derived;
 mod keys;
+mod layers;
 mod light;
 mod material;
 mod metals;

@@ -4,7 +4,7 @@ use crate::desc::{ColorParam, Emission, Environment, Fresnel, Material, Model, S
 use glam::Mat3;
 
 /// The same material with everything that could be coloured made white, so that it scatters all that it receives:
-/// reflectances, base colours and tints 1, mixtures filled up to 1. Roughness, metalness, indices and coverage stay as
+/// reflectances, base colours and tints 1, mixtures filled up to 1, sheen and coats taken off (beneath which a little is lost). Roughness, metalness, indices and coverage stay as
 /// they are. `None` for what absorbs whatever its parameters are.
 pub(super) fn lossless(material: &Material) -> Option<Material> {
     Some(Material { model: white(&material.model)?, emission: None, ..material.clone() })
@@ -23,6 +23,7 @@ fn white(model: &Model) -> Option<Model> {
         Model::MetallicRoughness(m) => {
             let mut m = m.clone();
             m.base_color = WHITE;
+            (m.layers.sheen, m.layers.clearcoat) = (None, None);
             Model::MetallicRoughness(m)
         }
         Model::Mix(parts) => {
