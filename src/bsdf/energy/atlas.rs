@@ -2,8 +2,9 @@
 
 use super::grid::{Grid, Stencil};
 use super::interface::{Energy, Interface};
+use super::mean::over_hemisphere;
 use super::quadrature::Rule;
-use super::table::{abscissa, alpha_of, azimuth, invert, mean_over_azimuth, shape};
+use super::table::{abscissa, alpha_of, azimuth, invert, shape};
 use crate::bsdf::ggx::Ggx;
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
@@ -85,7 +86,7 @@ impl Atlas {
             .map(|pair| {
                 let ggx = roughness(pair % n_large, pair / n_large);
                 let pair = Pair::new(ggx);
-                let [loss, a, b] = mean_over_azimuth(ggx, |w| atlas.at(ggx, &pair, w));
+                let [loss, a, b] = over_hemisphere(ggx, |w| atlas.at(ggx, &pair, w));
                 Vec4::new(loss.max(1e-30).ln() as f32, a as f32, b as f32, 0.0)
             })
             .collect();

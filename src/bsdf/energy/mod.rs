@@ -14,6 +14,7 @@
 mod atlas;
 mod grid;
 mod interface;
+mod mean;
 mod quadrature;
 mod sampling;
 mod table;

@@ -6,7 +6,7 @@ use super::interface::{Energy, Interface};
 use super::quadrature::{Rule, gauss_legendre};
 use crate::bsdf::ggx::Ggx;
 use crate::math::sqr;
-use glam::{DVec3, Vec3, Vec4};
+use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use std::f32::consts::FRAC_2_PI;
 use std::f64::consts::FRAC_PI_2;
@@ -175,7 +175,7 @@ impl EnergyTable {
                     };
                     node(i, phi, at(phi).0, ggx)
                 });
-                let sum = mean_over_azimuth_of(ggx, |t, alpha| {
+                let sum = mean_over_azimuth(ggx, |t, alpha| {
                     mean_over_cosine(interface, &grid, Stencil::new(t, N_AZIMUTH), alpha)
                 });
                 Self { interface, grid, means: vec![pack_mean(sum)] }
@@ -269,7 +269,7 @@ fn unpack_mean(v: Vec4) -> Energy {
 
 /// Mean over the azimuth of `of` the place t of an azimuth and the roughness that it meets: midpoints in the stretched
 /// azimuth, where interpolants are smooth, dφ = αφ²/(αx αy) dt.
-fn mean_over_azimuth_of(ggx: Ggx, of: impl Fn(f32, f32) -> [f64; 3]) -> [f64; 3] {
+fn mean_over_azimuth(ggx: Ggx, of: impl Fn(f32, f32) -> [f64; 3]) -> [f64; 3] {
     const N: usize = 128;
     let mut sum = [0.0; 3];
     for j in 0..N {
@@ -279,41 +279,6 @@ fn mean_over_azimuth_of(ggx: Ggx, of: impl Fn(f32, f32) -> [f64; 3]) -> [f64; 3]
         let mean = of(t, alpha);
         let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
         sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
-    }
-    sum
-}
-
-/// Cosine-weighted mean of energies over the hemisphere.
-pub(super) fn mean_over_azimuth(ggx: Ggx, energy: impl Fn(Vec3) -> Energy) -> [f64; 3] {
-    // In the scale of the abscissa, and of the azimuth where roughness is least and where it is greatest.
-    let rule = gauss_legendre::<4>();
-    const PANELS: usize = 12;
-    let (a, b) = (f64::from(ggx.ax), f64::from(ggx.ay));
-    let mut sum = [0.0; 3];
-    for panel in 0..PANELS {
-        for (x, w) in rule {
-            // Half of the nodes by the raw azimuth φ, half by the stretched one ψ, balanced by their densities.
-            let t = (panel as f64 + x) / PANELS as f64 * FRAC_PI_2;
-            for phi in [t, (t.sin() / b).atan2(t.cos() / a)] {
-                let (sin, cos) = phi.sin_cos();
-                let alpha = (a * cos).hypot(b * sin);
-                // dψ/dφ = αx αy/αφ².
-                let share = w / PANELS as f64 / (1.0 + a * b / (alpha * alpha));
-                let end = (1.0 / alpha).asinh();
-                for panel in 0..2 * PANELS {
-                    for (x, w) in rule {
-                        let t = (panel as f64 + x) / (2 * PANELS) as f64 * end;
-                        let mu = (alpha * t.sinh()).min(1.0);
-                        let weight = share * 2.0 * mu * alpha * t.cosh() * w * end / (2 * PANELS) as f64;
-                        let r = (1.0 - mu * mu).sqrt();
-                        let e = energy(DVec3::new(r * cos, r * sin, mu).as_vec3());
-                        for (sum, e) in sum.iter_mut().zip([e.loss, e.parts[0], e.parts[1]]) {
-                            *sum += weight * f64::from(e);
-                        }
-                    }
-                }
-            }
-        }
     }
     sum
 }
