@@ -14,6 +14,8 @@ mod formats;
 mod geometry;
 #[path = "gltf/hostile.rs"]
 mod hostile;
+#[path = "gltf/layers.rs"]
+mod layers;
 #[path = "gltf/materials.rs"]
 mod materials;
 #[path = "gltf/mutations.rs"]

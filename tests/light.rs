@@ -62,7 +62,7 @@ fn environments_add_up() {
 fn powers_are_the_integrals_of_what_is_emitted() {
     let none = |_: usize| Vec4::ONE;
     let pi = std::f64::consts::PI;
-    let emission = |sides| Emission { radiance: ColorParam::constant([1.0; 3]), sides };
+    let emission = |sides| Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None };
     let identity = Transform::from_mat4(Mat4::IDENTITY).expect("invertible");
     let sphere = PlacedQuadric::new(Quadric::Sphere { radius: 2.0 }, identity, false);
     let sphere = Light::Quadric(Box::new(QuadricLight::new(sphere, &emission(Sides::Front))));

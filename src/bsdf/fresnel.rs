@@ -76,6 +76,13 @@ impl Fresnel {
     }
 }
 
+/// Share of emitted light that leaves through a clear coat of index 1.5 on the share `factor` of the surface, at the
+/// cosine `cos` to the normal: 1 − c (F₀ + (1 − F₀)(1 − |cos|)⁵), F₀ = 0.04 (KHR_materials_clearcoat).
+#[inline]
+pub fn through_coat(factor: f32, cos: f32) -> f32 {
+    1.0 - factor * (0.04 + 0.96 * pow5(1.0 - cos.abs().min(1.0)))
+}
+
 /// x⁵.
 #[inline]
 pub fn pow5(x: f32) -> f32 {

@@ -44,6 +44,14 @@ pub struct Coat {
 }
 
 impl Coat {
+    /// No coat: everything passes.
+    pub const NONE: Self = Self { f0: Spectrum::ZERO, f90: Spectrum::ZERO, f_ms: Spectrum::ZERO, energy: None };
+
+    /// A colourless smooth coat of this F₀.
+    pub fn smooth(f0: f32) -> Self {
+        Self { f0: Spectrum::splat(f0), f90: Spectrum::ONE, f_ms: Spectrum::ZERO, energy: None }
+    }
+
     /// 1 − E_s towards `w`, in [0, 1].
     #[inline]
     pub fn transmitted(&self, w: Vec3) -> Spectrum {
@@ -77,6 +85,15 @@ impl CoupledDiffuse {
         // Where a coat lets nothing through there is no base to be seen.
         let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
         Self { scaled, average, coat }
+    }
+
+    /// The same base beneath further layers, which scale f by T(o) T(i): 1 − E_s,avg becomes the mean ⟨T (1 − E_s)⟩, which
+    /// `mean` finds, given the microsurface that 1 − E_s depends on and 1 − E_s itself.
+    pub(super) fn beneath(&self, mean: impl Fn(Option<&Slice>, &dyn Fn(Vec3) -> Spectrum) -> Spectrum) -> Self {
+        let average = mean(self.coat.energy.as_ref(), &|w| self.coat.transmitted(w));
+        let reflectance = self.scaled * self.average;
+        let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
+        Self { scaled, average, coat: self.coat }
     }
 
     /// f \[1/sr\] for directions on the same side.

@@ -3,6 +3,7 @@
 use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
 use super::rough_dielectric::RoughDielectric;
 use super::rough_reflection::{RoughReflection, RoughThin};
+use super::sheen::Sheen;
 use super::smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
 use super::{Class, Transport};
 use crate::spectrum::Spectrum;
@@ -28,6 +29,8 @@ pub enum Lobe {
     RoughThin(RoughThin),
     /// GGX dielectric interface.
     RoughDielectric(RoughDielectric),
+    /// Sheen of fibres.
+    Sheen(Sheen),
 }
 
 impl Lobe {
@@ -67,6 +70,7 @@ impl Lobe {
             Self::RoughReflection(l) => l.eval(wo, wi),
             Self::RoughThin(l) => l.eval(wo, wi),
             Self::RoughDielectric(l) => l.eval(wo, wi, mode),
+            Self::Sheen(l) => l.eval(wo, wi),
             _ => (Spectrum::ZERO, 0.0),
         }
     }
@@ -82,6 +86,7 @@ impl Lobe {
                 let wi = l.sample(wo, uc, u)?;
                 Some((wi, l.crossed(wo, wi)))
             }
+            Self::Sheen(l) => Some((l.sample(wo, uc, u)?, 1.0)),
             Self::Mirror(_) | Self::SmoothDielectric(_) | Self::ThinTransmission(_) => None,
         }
     }
@@ -109,6 +114,7 @@ impl Lobe {
             Self::RoughReflection(l) => l.albedo(wo),
             Self::RoughThin(l) => l.albedo(wo),
             Self::RoughDielectric(l) => l.albedo(wo),
+            Self::Sheen(l) => l.albedo(wo),
         }
     }
 }

@@ -1,33 +1,29 @@
 //! A BSDF: the sum of its lobes, and one choice among them.
 
+use super::entry::{Entry, Layers, MAX_LAYERS, Transmitted, transmitted};
 use super::lambert::sample_cosine;
-use super::{Class, Eval, Lobe, Pdf, Sample, Transport};
+use super::{Class, Eval, Layer, Lobe, Pdf, Sample, Transport};
+use crate::math::Frame;
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
 
 /// Most lobes of one BSDF.
-pub const MAX_LOBES: usize = 6;
+pub const MAX_LOBES: usize = 8;
 
 /// f = Σ scale · f_lobe, drawn from by choosing a lobe.
 ///
 /// Non-delta lobes form one density: whichever is chosen, `sample` returns Σ f |cos θ| / Σ p·pdf, so that a lobe that is
 /// bad at a direction is helped by one that is good at it. Delta lobes stand apart, each with its probability.
+///
+/// A lobe may have a frame of its own, and lie beneath [`Layer`]s that dim it; f is then as `layer` says.
 #[derive(Clone, Debug, Default)]
 pub struct Bsdf {
     entries: ArrayVec<Entry, MAX_LOBES>,
+    layers: Layers,
     /// Σ weight.
     total: f32,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct Entry {
-    lobe: Lobe,
-    /// Factor on f.
-    scale: f32,
-    /// Selection probability × `total`.
-    weight: f32,
 }
 
 impl Bsdf {
@@ -40,14 +36,15 @@ impl Bsdf {
     #[inline]
     pub fn clear(&mut self) {
         self.entries.clear();
+        self.layers.clear();
         self.total = 0.0;
     }
 
     /// One lobe.
     #[inline]
     pub fn single(lobe: Lobe) -> Self {
-        let mut bsdf = Self { entries: ArrayVec::new(), total: 1.0 };
-        bsdf.entries.push(Entry { lobe, scale: 1.0, weight: 1.0 });
+        let mut bsdf = Self { entries: ArrayVec::new(), layers: ArrayVec::new(), total: 1.0 };
+        bsdf.entries.push(Entry::new(lobe, None, 1.0, 1.0));
         bsdf
     }
 
@@ -55,19 +52,70 @@ impl Bsdf {
     /// a lobe of scale 0. A lobe with scale but without weight gets a little, so that none is ever missed.
     #[inline]
     pub fn push(&mut self, lobe: Lobe, scale: f32, weight: f32) -> bool {
+        self.push_entry(Entry::new(lobe, None, scale, weight))
+    }
+
+    /// The same with the lobe in a frame of its own, given in the shading frame.
+    pub fn push_in(&mut self, frame: Frame, lobe: Lobe, scale: f32, weight: f32) -> bool {
+        self.push_entry(Entry::new(lobe, Some(frame), scale, weight))
+    }
+
+    #[inline]
+    fn push_entry(&mut self, entry: Entry) -> bool {
+        let (scale, weight) = (entry.scale, entry.weight);
         if scale.is_nan() || scale <= 0.0 || self.entries.is_full() {
             return false;
         }
         let weight = if weight > 1e-4 { weight } else { 1e-4 };
         self.total += weight;
-        self.entries.push(Entry { lobe, scale, weight });
+        self.entries.push(entry.weighing(weight));
         true
     }
 
     /// Adds `scale` times a lobe, chosen in proportion to the energy that it scatters of light along `wo`.
     pub fn push_by_albedo(&mut self, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
-        let albedo = lobe.albedo(wo);
-        self.push(lobe, scale, scale * albedo.luminance().max(0.25 * albedo.max_element()))
+        self.push_by_albedo_in(None, lobe, scale, wo)
+    }
+
+    /// The same with the lobe in a frame of its own, where there is one.
+    pub fn push_by_albedo_in(&mut self, frame: Option<Frame>, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
+        let albedo = lobe.albedo(frame.map_or(wo, |frame| frame.to_local(wo)));
+        let weight = scale * albedo.luminance().max(0.25 * albedo.max_element());
+        self.push_entry(Entry::new(lobe, frame, scale, weight))
+    }
+
+    /// Number of lobes.
+    pub fn len(&self) -> usize {
+        self.entries.len()
+    }
+
+    /// Puts a layer over all lobes but the first `from`; `wo` decides how often each is chosen. What the layer itself
+    /// reflects is a lobe to be added afterwards. False where there is no room for a further layer.
+    pub fn cover(&mut self, from: usize, layer: Layer, wo: Vec3) -> bool {
+        if self.layers.try_push(layer).is_err() {
+            return false;
+        }
+        for entry in &mut self.entries[from..] {
+            entry.cover(&self.layers, wo);
+        }
+        self.total = self.entries.iter().map(|e| e.weight).sum();
+        true
+    }
+
+    /// Adds `scale` times the lobes of another BSDF with their layers, chosen by what they scatter of light along `wo`.
+    /// Lobes that find no room are left out.
+    pub fn add(&mut self, other: &Self, scale: f32, wo: Vec3) {
+        let by = self.layers.len() as u8;
+        if self.layers.len() + other.layers.len() > MAX_LAYERS {
+            return;
+        }
+        let t = transmitted(&other.layers, wo);
+        for entry in &other.entries {
+            let albedo = entry.albedo(wo, &t) * scale;
+            let weight = albedo.luminance().max(0.25 * albedo.max_element());
+            self.push_entry(entry.shifted(by).times(scale).weighing(weight));
+        }
+        self.layers.extend(other.layers.iter().copied());
     }
 
     /// Nothing scatters.
@@ -117,7 +165,7 @@ impl Bsdf {
         if entry.lobe.is_delta() {
             return self.draw_delta(entry, wo, uc, mode);
         }
-        let (wi, eta) = entry.lobe.sample(wo, uc, u)?;
+        let (wi, eta) = entry.sample(wo, uc, u)?;
         let Eval { f, specular, pdf } = self.eval(wo, wi, mode);
         let k = wi.z.abs() / pdf;
         // A density below the range of f32 gives no number to divide by.
@@ -146,9 +194,13 @@ impl Bsdf {
     #[inline(never)]
     fn eval_mixture(&self, wo: Vec3, wi: Vec3, mode: Transport) -> Eval {
         let mut eval = Eval::default();
+        let layers = self.transmitted(wo).zip(self.transmitted(wi));
         for e in &self.entries {
-            let (f, pdf) = e.lobe.eval(wo, wi, mode);
-            let f = f * e.scale;
+            let (f, pdf) = e.eval(wo, wi, mode);
+            let mut f = f * e.scale;
+            if let Some((o, i)) = &layers {
+                f *= e.dimmed(o, i);
+            }
             eval.f += f;
             if e.lobe.class() == Class::Specular {
                 eval.specular += f;
@@ -168,19 +220,19 @@ impl Bsdf {
 
     /// Every delta direction with its f |cos θ|, for branching: the weight is divided by no probability, and the pdf
     /// is `Discrete(1)`. Lobes that agree in direction are one.
-    pub fn deltas(&self, wo: Vec3, mode: Transport) -> ArrayVec<Sample, 8> {
-        let mut samples: ArrayVec<Sample, 8> = ArrayVec::new();
+    pub fn deltas(&self, wo: Vec3, mode: Transport) -> ArrayVec<Sample, 10> {
+        let mut samples: ArrayVec<Sample, 10> = ArrayVec::new();
         if wo.z == 0.0 {
             return samples;
         }
         for e in &self.entries {
-            for d in e.lobe.deltas(wo, mode).into_iter().flatten() {
-                let weight = d.weight * e.scale;
+            for d in e.deltas(wo, mode).into_iter().flatten() {
+                let weight = d.weight * (e.scale * self.dimmed(e, wo, d.wi));
                 if let Some(same) = samples.iter_mut().find(|s| s.wi == d.wi && s.eta == d.eta) {
                     same.weight += weight;
                     same.specular += weight;
                 } else {
-                    // One reflection, one straight line and a refraction for each of six lobes: eight suffice.
+                    // One reflection, one straight line and a refraction for each of eight lobes: ten suffice.
                     let sample = Sample { wi: d.wi, weight, specular: weight, pdf: Pdf::Discrete(1.0), eta: d.eta };
                     let _ = samples.try_push(sample);
                 }
@@ -191,14 +243,29 @@ impl Bsdf {
 
     /// Directional albedo, reflection and transmission together.
     pub fn albedo(&self, wo: Vec3) -> Spectrum {
-        self.entries.iter().map(|e| e.lobe.albedo(wo) * e.scale).sum()
+        let t = transmitted(&self.layers, wo);
+        self.entries.iter().map(|e| e.albedo(wo, &t)).sum()
+    }
+
+    /// What each layer lets through towards `w`; `None` without layers.
+    #[inline]
+    fn transmitted(&self, w: Vec3) -> Option<Transmitted> {
+        (!self.layers.is_empty()).then(|| transmitted(&self.layers, w))
+    }
+
+    /// What layers leave of f between two directions.
+    fn dimmed(&self, entry: &Entry, wo: Vec3, wi: Vec3) -> f32 {
+        match self.transmitted(wo).zip(self.transmitted(wi)) {
+            Some((o, i)) => entry.dimmed(&o, &i),
+            None => 1.0,
+        }
     }
 
     /// Albedo of the only lobe where it is Lambert's: most surfaces of most scenes, and worth a way of its own.
     #[inline]
     fn only_lambert(&self) -> Option<Spectrum> {
         match self.entries.as_slice() {
-            [Entry { lobe: Lobe::Lambert(l), scale, .. }] => Some(l.reflectance * *scale),
+            [e @ Entry { lobe: Lobe::Lambert(l), scale, .. }] if e.is_plain() => Some(l.reflectance * *scale),
             _ => None,
         }
     }
@@ -223,10 +290,11 @@ impl Bsdf {
 
     fn draw_delta(&self, entry: &Entry, wo: Vec3, uc: f32, mode: Transport) -> Option<Sample> {
         let chosen = entry.weight / self.total;
-        let deltas = entry.lobe.deltas(wo, mode);
+        let deltas = entry.deltas(wo, mode);
         let first = deltas[0].filter(|d| uc < d.probability);
         let d = first.or(deltas[1]).or(deltas[0])?;
-        let weight = d.weight * (entry.scale / (chosen * d.probability));
+        let scale = entry.scale * self.dimmed(entry, wo, d.wi);
+        let weight = d.weight * (scale / (chosen * d.probability));
         Some(Sample { wi: d.wi, weight, specular: weight, pdf: Pdf::Discrete(chosen * d.probability), eta: d.eta })
     }
 }

@@ -12,27 +12,35 @@
 //! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
 //! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
+//! | `sheen` | fibres |
+//! | `entry`, `layer` | a lobe in its frame, and beneath the layers that dim it |
 //! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
 mod energy;
+mod entry;
 pub mod fresnel;
 pub mod ggx;
 mod lambert;
+mod layer;
 mod lobe;
 mod mixture;
 mod rough_dielectric;
 mod rough_reflection;
+mod sheen;
 mod smooth;
 mod specimens;
 
-pub use energy::{Energy, EnergyTable, Interface, Slice};
+pub use energy::{Atlas, Energy, EnergyTable, Interface, Slice};
+pub use entry::MAX_LAYERS;
 pub use fresnel::Fresnel;
 pub use ggx::{Ggx, MIN_ALPHA};
 pub use lambert::{Coat, CoupledDiffuse, Lambert};
+pub use layer::Layer;
 pub use lobe::Lobe;
 pub use mixture::{Bsdf, MAX_LOBES};
 pub use rough_dielectric::{DielectricTables, RoughDielectric};
 pub use rough_reflection::{Micro, RoughReflection, RoughThin, multiple_scattering};
+pub use sheen::{Sheen, SheenAlbedo};
 pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
 pub use specimens::{Lazy, Specimen, specimens};
 

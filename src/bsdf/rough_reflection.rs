@@ -1,8 +1,8 @@
 //! GGX microfacets that reflect, or pass light on below: conductors, glTF's specular coat, and its thin transmission.
 
-use super::energy::{Energy, Slice};
+use super::energy::{Atlas, Energy, Slice};
 use super::ggx::{Ggx, half_vector, reflect};
-use super::{Fresnel, Interface};
+use super::{Coat, Fresnel, Interface};
 use crate::spectrum::Spectrum;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
@@ -53,6 +53,14 @@ impl Micro {
         Self { ggx: Ggx { ax: a, ay: a }, energy: Slice::isotropic(table, a) }
     }
 
+    /// Anisotropic, without a table of its own.
+    #[inline]
+    pub fn varying(alpha: [f32; 2], atlas: &'static Atlas) -> Self {
+        let [ax, ay] = alpha.map(|a| a.clamp(super::MIN_ALPHA, 1.0));
+        let ggx = Ggx { ax, ay };
+        Self { ggx, energy: Slice::anisotropic(atlas, ggx) }
+    }
+
     /// Its energy table at this roughness.
     pub fn energy(&self) -> &Slice {
         &self.energy
@@ -77,6 +85,12 @@ impl RoughReflection {
     #[inline]
     pub fn with(micro: Micro, fresnel: Fresnel, f_ms: Spectrum) -> Self {
         Self { micro, fresnel, fit: fresnel.fit(), f_ms }
+    }
+
+    /// Its albedo, as of something that others lie beneath; for Schlick's terms.
+    pub fn coat(&self) -> Coat {
+        let (f0, f90, _) = self.fit;
+        Coat { f0, f90, f_ms: self.f_ms, energy: Some(self.micro.energy) }
     }
 
     /// Energy of single scattering, and of multiple scattering.

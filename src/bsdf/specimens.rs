@@ -1,6 +1,7 @@
 //! One of everything, for the checks: all lobes, and the corners of their parameters.
 
 use super::*;
+use crate::math::Frame;
 use glam::Vec4;
 use std::sync::LazyLock;
 
@@ -68,7 +69,59 @@ pub fn specimens() -> Vec<Specimen> {
         mixture.push(Lobe::RoughReflection(rough), 0.4, 0.5);
         mixture
     });
+
+    // Sheen, frames and layers. "Beneath": dimmed by the smaller of both transmittances, so that something is lost.
+    for roughness in [0.3, 0.7] {
+        let sheen = Sheen::new(Spectrum::ONE, SheenAlbedo::new(roughness));
+        all.add(format!("sheen r {roughness}"), false, move || Bsdf::single(Lobe::Sheen(sheen)));
+    }
+    all.add("turned white conductor α [0.15, 0.6]", true, || {
+        let mut turned = Bsdf::new();
+        let frame = Frame::from_z_tangent(Vec3::Z, Vec3::new(0.5, -0.8, 0.0), 1.0);
+        let lobe = RoughReflection::new(Micro::varying([0.15, 0.6], Atlas::get()), Fresnel::ONE);
+        turned.push_in(frame, Lobe::RoughReflection(lobe), 1.0, 1.0);
+        turned
+    });
+    all.add("white under a coat", true, || {
+        let mut white = Bsdf::single(Lobe::lambert(Spectrum::ONE));
+        coat_over(&mut white, 0.8, 0.2, None);
+        white
+    });
+    all.add("white under sheen", true, || {
+        let mut white = Bsdf::single(Lobe::lambert(Spectrum::ONE));
+        sheen_over(&mut white, 0.4);
+        white
+    });
+    all.add("gold α [0.15, 0.4] beneath a coat", false, || {
+        let mut gold = metal([0.15, 0.4], gold());
+        coat_over(&mut gold, 1.0, 0.05, None);
+        gold
+    });
+    all.add("plastic beneath sheen and a tilted coat", false, move || {
+        let mut plastic = coated([0.3; 2], Spectrum::splat(0.04), grey);
+        sheen_over(&mut plastic, 0.7);
+        coat_over(&mut plastic, 1.0, 0.2, Some(Vec3::new(0.4, -0.2, 0.9).normalize()));
+        plastic
+    });
     all.0
+}
+
+/// White sheen of this roughness.
+fn sheen_over(bsdf: &mut Bsdf, roughness: f32) {
+    let albedo = SheenAlbedo::new(roughness);
+    bsdf.cover(0, Layer::sheen(1.0, albedo), Vec3::Z);
+    bsdf.push(Lobe::Sheen(Sheen::new(Spectrum::ONE, albedo)), 1.0, 0.3);
+}
+
+/// A clear coat of index 1.5.
+fn coat_over(bsdf: &mut Bsdf, factor: f32, alpha: f32, normal: Option<Vec3>) {
+    let fresnel = Fresnel::schlick(Spectrum::splat(0.04), Spectrum::ONE);
+    let lobe = RoughReflection::new(Micro::new([alpha; 2]), fresnel);
+    bsdf.cover(0, Layer::coat(factor, lobe.coat(), normal), Vec3::Z);
+    match normal {
+        None => bsdf.push(Lobe::RoughReflection(lobe), factor, 0.3),
+        Some(n) => bsdf.push_in(Frame::from_z(n), Lobe::RoughReflection(lobe), factor, 0.3),
+    };
 }
 
 struct Specimens(Vec<Specimen>);

@@ -1,6 +1,6 @@
 //! Materials as written: parameters, textures, and what they mean; lobes are made of them in `material/`.
 
-use super::{Interior, TextureRef};
+use super::{Interior, Layers, TextureRef};
 
 /// A surface material.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +82,13 @@ pub enum Roughness {
     Perceptual(ScalarParam),
     /// α along the tangent and the bitangent, constant.
     Alpha([f32; 2]),
+    /// KHR_materials_anisotropy: α = mix(r², 1, strength²) along the direction, r² across it.
+    Stretched {
+        /// Perceptual roughness r.
+        roughness: ScalarParam,
+        /// Strength in [0, 1].
+        strength: ScalarParam,
+    },
 }
 
 /// glTF 2.0, section 3.9 and appendix B.
@@ -101,6 +108,8 @@ pub struct MetallicRoughness {
     pub specular_color: ColorParam,
     /// KHR_materials_transmission, with KHR_materials_volume deciding whether it is thin.
     pub transmission: Option<Transmission>,
+    /// Anisotropy, sheen and clear coat.
+    pub layers: Layers,
 }
 
 /// KHR_materials_transmission.
@@ -141,13 +150,16 @@ pub struct NormalMap {
     pub scale: f32,
 }
 
-/// Emitted radiance \[W·sr⁻¹·m⁻²\], the same in all directions of a side.
+/// Emitted radiance \[W·sr⁻¹·m⁻²\], the same in all directions of a side but for a coat.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Emission {
     /// Linear RGB.
     pub radiance: ColorParam,
     /// Which side emits.
     pub sides: Sides,
+    /// Share of the surface under a clear coat, which takes c F(θ) of the light (KHR_materials_clearcoat): F is Schlick's
+    /// for the index 1.5, θ the angle to the geometric normal.
+    pub coat: Option<ScalarParam>,
 }
 
 /// Sides of a surface.
@@ -208,7 +220,10 @@ impl Model {
             Self::Conductor { fresnel: Fresnel::Schlick { f0 }, .. } => vec![f0],
             Self::Conductor { fresnel: Fresnel::Complex { .. }, .. } | Self::Absorb => Vec::new(),
             Self::Mix(parts) => parts.iter_mut().flat_map(|(_, model)| model.colors_mut()).collect(),
-            Self::MetallicRoughness(m) => vec![&mut m.base_color, &mut m.specular_color],
+            Self::MetallicRoughness(m) => {
+                let sheen = m.layers.sheen.as_mut().map(|sheen| &mut sheen.color);
+                [&mut m.base_color, &mut m.specular_color].into_iter().chain(sheen).collect()
+            }
         }
     }
 }

@@ -12,6 +12,7 @@ pub mod gltf;
 pub mod ies;
 pub mod image_file;
 mod interior;
+mod layers;
 mod load;
 mod material;
 mod mesh_check;
@@ -29,6 +30,7 @@ pub use error::{Error, ErrorKind};
 pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
 pub use interior::{Dispersion, Interior, absorption};
+pub use layers::{Anisotropy, Clearcoat, Layers, Sheen};
 pub use load::{Options, load, load_with};
 pub use material::{
     Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,

@@ -93,10 +93,10 @@ impl Lights {
         self.choice.probability(receiver, light)
     }
 
-    /// Radiance that area light number `light` emits at a point of it.
+    /// Radiance that area light number `light` emits at a point of it, at the cosine `cos` to its normal.
     #[inline]
-    pub fn le(&self, light: u32, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
-        self.lights[light as usize].le(uv, color, front, textures)
+    pub fn le(&self, light: u32, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
+        self.lights[light as usize].le(uv, color, cos, textures)
     }
 
     /// Radiance that arrives along a ray that met nothing, from the unit vector `wi`.

@@ -1,18 +1,20 @@
 //! What the surface of an area light emits.
 
-use crate::desc::{self, Sides, TextureRef};
+use crate::bsdf::fresnel;
+use crate::desc::{self, ScalarParam, Sides, TextureRef};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use glam::{Vec2, Vec4};
 use std::f32::consts::PI;
 
-/// Emitted radiance over the surface, the same in all directions of a side that emits.
-#[derive(Clone, Copy, Debug)]
+/// Emitted radiance over the surface, the same in all directions of a side that emits, but for what a coat takes.
+#[derive(Clone, Debug)]
 pub struct Emitter {
     factor: Spectrum,
     texture: Option<TextureRef>,
     vertex_color: bool,
     sides: Sides,
+    coat: Option<Box<ScalarParam>>,
 }
 
 impl Emitter {
@@ -24,13 +26,15 @@ impl Emitter {
             texture: radiance.texture,
             vertex_color: radiance.vertex_color,
             sides: emission.sides,
+            coat: emission.coat.map(Box::new),
         }
     }
 
-    /// Lₑ \[W·sr⁻¹·m⁻²\] at texture coordinates `uv` and vertex colour `color`.
+    /// Lₑ \[W·sr⁻¹·m⁻²\] at texture coordinates `uv` and vertex colour `color` in the direction of cosine `cos` to the
+    /// geometric normal, negative to the back.
     #[inline]
-    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
-        if !self.emits(front) {
+    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
+        if !self.emits(cos > 0.0) {
             return Spectrum::ZERO;
         }
         let mut le = self.factor;
@@ -39,6 +43,9 @@ impl Emitter {
         }
         if self.vertex_color {
             le *= rgb(color);
+        }
+        if let Some(coat) = &self.coat {
+            le *= through_coat(coat, cos, uv, textures);
         }
         le
     }
@@ -51,11 +58,11 @@ impl Emitter {
 
     /// Whether Lₑ is the same at every point.
     pub fn is_uniform(&self) -> bool {
-        self.texture.is_none() && !self.vertex_color
+        self.texture.is_none() && !self.vertex_color && self.coat.as_ref().is_none_or(|coat| coat.texture.is_none())
     }
 
     /// Flux \[W\] of an `area` of mean vertex colour `color`, Φ = π A Lₑ for each side, with the texture's mean taken
-    /// for the part of it that the surface shows.
+    /// for the part of it that the surface shows, and what a coat takes left out.
     pub fn power(&self, area: f32, color: Vec4, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
         let mut le = self.factor;
         if let Some(texture) = &self.texture {
@@ -81,6 +88,13 @@ impl Emitter {
         let edges = [a.distance(b), b.distance(c), c.distance(a)];
         Some(edges.into_iter().fold(0.0, |most, edge| if edge.is_finite() { edge.max(most) } else { most }))
     }
+}
+
+/// What the coat lets out.
+#[inline]
+fn through_coat(coat: &ScalarParam, cos: f32, uv: &[Vec2; 2], textures: &Textures) -> f32 {
+    let share = coat.texture.map_or(1.0, |(texture, channel)| textures.lookup(&texture, uv).to_array()[channel.min(3)]);
+    fresnel::through_coat((coat.factor * share).clamp(0.0, 1.0), cos)
 }
 
 fn rgb(color: Vec4) -> Spectrum {

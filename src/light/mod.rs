@@ -125,13 +125,13 @@ impl Light {
         }
     }
 
-    /// Radiance that this area light emits at the point with these texture coordinates and vertex colour, to its front
-    /// or its back; 0 for other lights.
+    /// Radiance that this area light emits at the point with these texture coordinates and vertex colour in the direction
+    /// of cosine `cos` to its normal, negative to the back; 0 for other lights.
     #[inline]
-    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
+    pub fn le(&self, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
         match self {
-            Self::Triangle(light) => light.emitter.le(uv, color, front, textures),
-            Self::Quadric(light) => light.emitter.le(uv, color, front, textures),
+            Self::Triangle(light) => light.emitter.le(uv, color, cos, textures),
+            Self::Quadric(light) => light.emitter.le(uv, color, cos, textures),
             Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => {
                 Spectrum::ZERO
             }

@@ -63,7 +63,7 @@ impl QuadricLight {
         let sight = Sight::new(reference, surface.p, surface.ng)?;
         let area_pdf = || (1.0 / (self.shape.quadric.area() * self.shape.area_scale(point.n))) as f32;
         let pdf = cone_pdf.unwrap_or_else(|| sight.solid_angle_pdf(area_pdf()));
-        let le = self.emitter.le(&surface.uv, Vec4::ONE, sight.cos > 0.0, textures);
+        let le = self.emitter.le(&surface.uv, Vec4::ONE, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
             wi: sight.wi,
             distance: sight.shadow_end(reference, surface.p, surface.ng),

@@ -29,7 +29,7 @@ pub fn specimens() -> Vec<Specimen> {
 
 /// Emission of linear RGB (2, 3, 1).
 fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides }
+    Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides, coat: None }
 }
 
 fn triangles() -> Vec<Specimen> {
@@ -77,7 +77,7 @@ fn colored(p: [Vec3; 3]) -> Option<Specimen> {
     let grey = |x: f32| Vec4::new(x, x, x, 1.0);
     let attributes = TriangleAttributes { colors: Some([grey(0.1), grey(0.2), grey(5.0)]), ..Default::default() };
     let radiance = ColorParam { vertex_color: true, ..ColorParam::constant([2.0, 3.0, 1.0]) };
-    let mut light = TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front })?;
+    let mut light = TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front, coat: None })?;
     light.divide(&Textures::default(), 1 << 14);
     let points = vec![("near", Vec3::new(0.2, 0.3, 0.4)), ("far", Vec3::new(3.0, 2.0, 9.0))];
     Some(Specimen { name: "triangle with colours", light: Light::Triangle(light), points })

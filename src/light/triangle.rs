@@ -70,8 +70,8 @@ impl TriangleLight {
             area,
             centroid,
             near2: NEAR * NEAR * radius2,
-            emitter,
             attributes: (!emitter.is_uniform()).then(|| Box::new(*attributes)),
+            emitter,
             flip,
             picture: None,
         })
@@ -91,7 +91,7 @@ impl TriangleLight {
         let steps = self.emitter.steps(&corners, textures).unwrap_or(GRADIENT);
         let le = |at: [f32; 2]| {
             let (uv, color) = self.appearance(at);
-            self.emitter.le(&uv, color, true, textures)
+            self.emitter.le(&uv, color, 1.0, textures)
         };
         let (mean, cells) = Cells::new(le, steps, lookups.max(1));
         self.picture = Some(Box::new(Picture { mean, cells }));
@@ -118,7 +118,7 @@ impl TriangleLight {
         let pdf = self.pdf_mixed(pdf, &sight, weights);
 
         let (uv, color) = self.appearance(weights);
-        let le = self.emitter.le(&uv, color, front, textures);
+        let le = self.emitter.le(&uv, color, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
             wi: sight.wi,
             distance: end,

@@ -31,7 +31,10 @@ pub(super) struct MetallicRoughness {
 
 impl MetallicRoughness {
     pub(super) fn new(desc: &desc::MetallicRoughness) -> Self {
-        let roughness = desc::Roughness::Perceptual(desc.roughness);
+        let roughness = match &desc.layers.anisotropy {
+            Some(a) => desc::Roughness::Stretched { roughness: desc.roughness, strength: a.strength },
+            None => desc::Roughness::Perceptual(desc.roughness),
+        };
         let n = desc.ior;
         // An index of 0 stands for infinity.
         let f0 = if n > 0.0 { normal_reflectance(n) } else { 1.0 };
@@ -46,6 +49,7 @@ impl MetallicRoughness {
             .into_iter()
             .flatten()
             .all(|p| p.texture.is_none())
+            && self.micro.is_constant()
             && param::is_constant(&d.base_color)
             && param::is_constant(&d.specular_color)
     }

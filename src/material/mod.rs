@@ -1,10 +1,12 @@
 //! Materials: what the author wrote, compiled, and at a hit turned into lobes.
 //!
-//! One file a model: `classic` (mirror, dielectric, conductor) and `metallic_roughness` (glTF); `param` reads
+//! One file a model: `classic` (mirror, dielectric, conductor) and `metallic_roughness` (glTF), over which `layered` lays
+//! sheen and clear coat; `param` reads
 //! parameters and textures, `roughness` holds microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
 
 mod classic;
 mod interior;
+mod layered;
 mod metallic_roughness;
 pub mod param;
 mod roughness;
@@ -18,6 +20,7 @@ use crate::texture::Textures;
 use classic::{Conductor, Dielectric};
 use glam::{Vec2, Vec3, Vec4};
 pub use interior::interior;
+use layered::{Layered, Lie};
 use metallic_roughness::MetallicRoughness;
 use param::Point;
 
@@ -51,6 +54,7 @@ enum Part {
     Dielectric(Dielectric),
     Conductor(Conductor),
     MetallicRoughness(Box<MetallicRoughness>),
+    Layered(Box<Layered>),
 }
 
 impl Part {
@@ -61,6 +65,8 @@ impl Part {
             Self::Dielectric(d) => d.is_constant(),
             Self::Conductor(c) => c.is_constant(),
             Self::MetallicRoughness(m) => m.is_constant(),
+            // It keeps what is constant itself, with its layers.
+            Self::Layered(_) => false,
         }
     }
 
@@ -72,6 +78,8 @@ impl Part {
             Self::Dielectric(d) => push(d.lobe(at), 1.0),
             Self::Conductor(c) => push(c.lobe(at), 1.0),
             Self::MetallicRoughness(m) => m.lobes(at, push),
+            // Its lobes are nothing without their layers: `put` adds both.
+            Self::Layered(_) => {}
         }
     }
 
@@ -133,16 +141,19 @@ impl Material {
                 scratch.clear();
                 scratch
             }
-            Scattering::Sum(parts) => sum(parts, Point { uv: &s.uv, color: s.color, textures, eta }, wo, scratch),
+            Scattering::Sum(parts) => {
+                let at = Point { uv: &s.uv, color: s.color, textures, eta };
+                sum(parts, at, Lie { surface: s, normal_map: self.normal_map.as_ref() }, wo, scratch)
+            }
         }
     }
 
-    /// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.
+    /// Radiance \[W·sr⁻¹·m⁻²\] emitted at the cosine `cos` to the geometric normal, negative to the back.
     #[inline]
-    pub fn emission(&self, uv: &[Vec2; 2], color: Vec4, front: bool, textures: &Textures) -> Spectrum {
+    pub fn emission(&self, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
         match &self.emission {
             None => Spectrum::ZERO,
-            Some(emission) => param::emitted(emission, front, Point { uv, color, textures, eta: None }),
+            Some(emission) => param::emitted(emission, cos, Point { uv, color, textures, eta: None }),
         }
     }
 
@@ -173,12 +184,12 @@ impl Material {
     /// surface has no tangent to turn it by.
     #[inline]
     pub fn shading_normal(&self, s: &Surface, textures: &Textures) -> Option<Vec3> {
-        self.normal_map.as_ref().and_then(|map| mapped_normal(map, s, textures))
+        self.normal_map.as_ref().and_then(|map| tangent_space_normal(map, s, textures))
     }
 }
 
 #[inline(never)]
-fn mapped_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Vec3> {
+fn tangent_space_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Vec3> {
     if s.tangent == Vec3::ZERO {
         return None;
     }
@@ -192,9 +203,13 @@ fn mapped_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Ve
 }
 
 #[inline(never)]
-fn sum<'a>(parts: &[(f32, Part)], at: Point, wo: Vec3, scratch: &'a mut Bsdf) -> &'a Bsdf {
+fn sum<'a>(parts: &[(f32, Part)], at: Point, lie: Lie, wo: Vec3, scratch: &'a mut Bsdf) -> &'a Bsdf {
     scratch.clear();
     for (weight, part) in parts {
+        if let Part::Layered(layered) = part {
+            layered.put(at, lie, *weight, wo, scratch);
+            continue;
+        }
         part.lobes(at, |lobe, scale| {
             scratch.push_by_albedo(lobe, weight * scale, wo);
         });
@@ -207,7 +222,10 @@ pub fn most_lobes(model: &desc::Model) -> usize {
     match model {
         desc::Model::Absorb => 0,
         desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
-        desc::Model::MetallicRoughness(m) => 2 + usize::from(m.transmission.is_some()),
+        desc::Model::MetallicRoughness(m) => {
+            let layers = [m.layers.sheen.is_some(), m.layers.clearcoat.is_some()];
+            2 + usize::from(m.transmission.is_some()) + layers.into_iter().map(usize::from).sum::<usize>()
+        }
         _ => 1,
     }
 }
@@ -224,7 +242,10 @@ fn flatten(model: &desc::Model, weight: f32, parts: &mut Vec<(f32, Part)>) {
         desc::Model::Mirror { reflectance } => Part::Mirror(*reflectance),
         desc::Model::Dielectric { ior, roughness, tint } => Part::Dielectric(Dielectric::new(*ior, *roughness, *tint)),
         desc::Model::Conductor { fresnel, roughness } => Part::Conductor(Conductor::new(fresnel, *roughness)),
-        desc::Model::MetallicRoughness(m) => Part::MetallicRoughness(Box::new(MetallicRoughness::new(m))),
+        desc::Model::MetallicRoughness(m) if m.layers.is_empty() => {
+            Part::MetallicRoughness(Box::new(MetallicRoughness::new(m)))
+        }
+        desc::Model::MetallicRoughness(m) => Part::Layered(Box::new(Layered::new(m))),
     };
     if weight > 0.0 {
         parts.push((weight, part));

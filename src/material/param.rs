@@ -1,5 +1,6 @@
 //! Parameters at a point: factor × texture × vertex colour. Constants touch no texture.
 
+use crate::bsdf::fresnel;
 use crate::desc::{ColorParam, Emission, ScalarParam, Sides};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -59,10 +60,14 @@ pub fn scalar(p: &ScalarParam, at: Point) -> f32 {
     (p.factor * texture).max(0.0).clamp(0.0, 1.0)
 }
 
-/// Radiance \[W·sr⁻¹·m⁻²\] emitted to the front, or to the back.
+/// Radiance \[W·sr⁻¹·m⁻²\] emitted at the cosine `cos` to the normal, negative to the back.
 #[inline]
-pub fn emitted(emission: &Emission, front: bool, at: Point) -> Spectrum {
-    if front || emission.sides == Sides::Both { color(&emission.radiance, at) } else { Spectrum::ZERO }
+pub fn emitted(emission: &Emission, cos: f32, at: Point) -> Spectrum {
+    if cos <= 0.0 && emission.sides != Sides::Both {
+        return Spectrum::ZERO;
+    }
+    let radiance = color(&emission.radiance, at);
+    emission.coat.map_or(radiance, |coat| radiance * fresnel::through_coat(scalar(&coat, at), cos))
 }
 
 /// RGBA to lanes.

@@ -1,7 +1,7 @@
 //! Roughness over the surface, with the energy tables that it needs resolved ahead of hits.
 
 use super::param::{self, Point};
-use crate::bsdf::{DielectricTables, EnergyTable, Interface, MIN_ALPHA, Micro, RoughDielectric};
+use crate::bsdf::{Atlas, DielectricTables, EnergyTable, Interface, MIN_ALPHA, Micro, RoughDielectric};
 use crate::desc::Roughness;
 use crate::spectrum::Spectrum;
 
@@ -17,6 +17,10 @@ fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
             [r * r; 2]
         }
         Roughness::Alpha(a) => *a,
+        Roughness::Stretched { roughness, strength } => {
+            let (r, s) = (param::scalar(roughness, at), param::scalar(strength, at));
+            [r * r + (1.0 - r * r) * s * s, r * r]
+        }
     };
     (alpha[0].max(alpha[1]) >= MIN_ALPHA).then_some(alpha)
 }
@@ -30,6 +34,9 @@ enum Fixed {
 fn fixed(roughness: &Roughness) -> Option<Fixed> {
     match roughness {
         Roughness::Perceptual(r) if r.texture.is_some() => None,
+        Roughness::Stretched { roughness, strength } if roughness.texture.is_some() || strength.texture.is_some() => {
+            None
+        }
         _ => Some(param::nowhere(|at| alpha(roughness, at)).map_or(Fixed::Smooth, Fixed::Rough)),
     }
 }
@@ -43,19 +50,26 @@ pub(super) enum Microsurface {
     Fixed(Micro),
     /// Of a texture.
     Varying(Roughness, &'static EnergyTable),
+    /// The same with two roughnesses.
+    Stretched(Roughness, &'static Atlas),
 }
 
 impl Microsurface {
     pub(super) fn new(roughness: Roughness) -> Self {
-        match fixed(&roughness) {
-            Some(Fixed::Smooth) => Self::Smooth,
-            Some(Fixed::Rough(alpha)) => Self::Fixed(Micro::new(alpha)),
-            None => Self::Varying(roughness, EnergyTable::isotropic(Interface::Mirror)),
+        match (fixed(&roughness), &roughness) {
+            (Some(Fixed::Smooth), _) => Self::Smooth,
+            // One atlas serves all materials; a table each would take a third of a second each.
+            (Some(Fixed::Rough([a, b])), Roughness::Stretched { .. }) if a != b => {
+                Self::Fixed(Micro::varying([a, b], Atlas::get()))
+            }
+            (None, Roughness::Stretched { .. }) => Self::Stretched(roughness, Atlas::get()),
+            (Some(Fixed::Rough(alpha)), _) => Self::Fixed(Micro::new(alpha)),
+            (None, _) => Self::Varying(roughness, EnergyTable::isotropic(Interface::Mirror)),
         }
     }
 
     pub(super) fn is_constant(&self) -> bool {
-        !matches!(self, Self::Varying(..))
+        !matches!(self, Self::Varying(..) | Self::Stretched(..))
     }
 
     /// `None` where the surface is smooth.
@@ -65,6 +79,7 @@ impl Microsurface {
             Self::Smooth => None,
             Self::Fixed(micro) => Some(*micro),
             Self::Varying(roughness, table) => alpha(roughness, at).map(|[a, _]| Micro::isotropic(a, table)),
+            Self::Stretched(roughness, atlas) => alpha(roughness, at).map(|alpha| Micro::varying(alpha, atlas)),
         }
     }
 }
@@ -112,7 +127,8 @@ impl RoughInterface {
             Own::Smooth => None,
             Own::Fixed(lobe) => Some(lobe.with_tint(tint)),
             Own::Varying(tables) => {
-                alpha(&self.roughness, at).map(|[a, _]| RoughDielectric::isotropic(a, eta, tint, tables))
+                // Where two roughnesses vary, their geometric mean: there are no tables for pairs and indices.
+                alpha(&self.roughness, at).map(|[a, b]| RoughDielectric::isotropic((a * b).sqrt(), eta, tint, tables))
             }
         }
     }

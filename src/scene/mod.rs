@@ -137,7 +137,7 @@ impl Scene {
     #[inline]
     pub fn emission(&self, vertex: &Vertex) -> Spectrum {
         let s = &vertex.surface;
-        self.materials[vertex.material as usize].emission(&s.uv, s.color, vertex.front, &self.textures)
+        self.materials[vertex.material as usize].emission(&s.uv, s.color, vertex.wo.dot(s.ng), &self.textures)
     }
 
     /// Counts and sizes for people.

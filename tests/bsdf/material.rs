@@ -3,7 +3,7 @@
 use crate::{at_cosine, sampled_albedo};
 use radianza::bsdf::{Bsdf, Transport};
 use radianza::desc::{self, Alpha, ColorParam, Emission, Fresnel, Model, NormalMap, Roughness, ScalarParam, Sides};
-use radianza::desc::{Image, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};
+use radianza::desc::{Image, Layers, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};
 use radianza::glam::{Affine2, Vec2, Vec3, Vec4};
 use radianza::material::Material;
 use radianza::shape::Surface;
@@ -46,6 +46,7 @@ fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
         specular: ScalarParam::constant(1.0),
         specular_color: WHITE,
         transmission: None,
+        layers: Layers::default(),
     }
 }
 
@@ -149,12 +150,19 @@ fn emission_and_coverage() {
     let s = surface();
     let mut m = desc::Material::new("test", Model::Absorb);
     assert!(!Material::compile(&m).is_emissive() && !Material::compile(&m).has_holes());
-    m.emission = Some(Emission { radiance: ColorParam::constant([3.0, 2.0, 1.0]), sides: Sides::Front });
+    m.emission = Some(Emission { radiance: ColorParam::constant([3.0, 2.0, 1.0]), sides: Sides::Front, coat: None });
     m.alpha = Alpha::Blend { coverage: ScalarParam { factor: 0.8, texture: Some((texture(0), 3)) } };
     let blend = Material::compile(&m);
     assert!(blend.is_emissive() && blend.has_holes());
-    assert_eq!(blend.emission(&s.uv, s.color, true, &textures).to_rgb(), [3.0, 2.0, 1.0]);
-    assert!(blend.emission(&s.uv, s.color, false, &textures).is_black());
+    assert_eq!(blend.emission(&s.uv, s.color, 1.0, &textures).to_rgb(), [3.0, 2.0, 1.0]);
+    assert!(blend.emission(&s.uv, s.color, -1.0, &textures).is_black());
+    // Beneath a coat of half the surface: 1 − 0.04/2 along the normal, less towards the horizon.
+    let coat = Some(ScalarParam::constant(0.5));
+    let coated = desc::Material { emission: m.emission.map(|e| Emission { coat, ..e }), ..m.clone() };
+    for (cos, share) in [(1.0, 0.98), (0.5, 1.0 - 0.5 * (0.04 + 0.96 / 32.0))] {
+        let le = Material::compile(&coated).emission(&s.uv, s.color, cos, &textures).to_rgb();
+        assert!((le[0] - 3.0 * share).abs() < 1e-5, "{cos}: {le:?}");
+    }
     // 0.8 × 0.25 × vertex alpha 0.5.
     assert!((blend.coverage(&s.uv, s.color, &textures) - 0.1).abs() < 1e-6);
     for (cutoff, there) in [(0.09, 1.0), (0.11, 0.0)] {
@@ -181,4 +189,68 @@ fn normal_maps_stay_above_the_surface() {
     m.normal_map = Some(NormalMap { texture: texture(0), scale: 1.0 });
     let n = Material::compile(&m).shading_normal(&surface(), &textures).expect("there is a map");
     assert!(n.z > 0.0 && n.x > 0.0 && n.y < 0.0 && (n.length() - 1.0).abs() < 1e-6, "{n}");
+}
+
+#[test]
+fn layers_change_what_they_cover_and_make_no_light() {
+    use radianza::desc::{Anisotropy, Clearcoat, Sheen};
+    let sheen = Sheen { color: WHITE, roughness: ScalarParam::constant(0.5) };
+    let coat = |roughness: f32| Clearcoat {
+        factor: ScalarParam::constant(1.0),
+        roughness: ScalarParam::constant(roughness),
+        normal_map: None,
+    };
+    let stretched = Anisotropy { strength: ScalarParam::constant(0.8), rotation: 0.6, direction: None };
+    let (wo, wi) = (at_cosine(0.4), Vec3::new(-0.5, 0.7, 0.5).normalize());
+    let lobes = |m: &MetallicRoughness, wo: Vec3| {
+        let model = Model::MetallicRoughness(Box::new(m.clone()));
+        compile(model).bsdf(&surface(), wo, &textures(), &mut Bsdf::new()).clone()
+    };
+    for (metallic, roughness) in [(0.0, 0.5), (1.0, 0.3), (0.5, 0.0)] {
+        let plain = gltf(metallic, roughness);
+        let before = lobes(&plain, wo).eval(wo, wi, Transport::Radiance).f;
+        for (name, layers) in [
+            ("sheen", Layers { sheen: Some(sheen), ..Layers::default() }),
+            ("rough coat", Layers { clearcoat: Some(coat(0.3)), ..Layers::default() }),
+            ("all", Layers { anisotropy: Some(stretched), sheen: Some(sheen), clearcoat: Some(coat(0.0)) }),
+        ] {
+            let bsdf = lobes(&MetallicRoughness { layers, ..plain.clone() }, wo);
+            assert_ne!(bsdf.eval(wo, wi, Transport::Radiance).f, before, "{name}");
+            for mu in [1.0, 0.4, 0.05] {
+                let albedo = sampled_albedo(&bsdf, at_cosine(mu), 1, 2_000);
+                let (most, se) = (albedo.mean(), albedo.standard_error());
+                assert!(most < 1.003 + 5.0 * se && most > 0.85, "{name} over {metallic} {roughness}: {most} ± {se}");
+            }
+        }
+    }
+
+    // Turned by half a turn grooves are the same, by a quarter not; and without strength they are none.
+    let turned = |strength: f32, rotation: f32| {
+        let anisotropy = Anisotropy { strength: ScalarParam::constant(strength), rotation, direction: None };
+        let layers = Layers { anisotropy: Some(anisotropy), ..Layers::default() };
+        lobes(&MetallicRoughness { layers, ..gltf(1.0, 0.4) }, wo).eval(wo, wi, Transport::Radiance).f.0.x
+    };
+    use std::f32::consts::{FRAC_PI_2, PI};
+    assert!((turned(0.7, 0.3) / turned(0.7, 0.3 + PI) - 1.0).abs() < 1e-3);
+    assert!((turned(0.7, 0.3) / turned(0.7, 0.3 + FRAC_PI_2) - 1.0).abs() > 0.05);
+    assert_eq!(turned(0.0, 0.3), lobes(&gltf(1.0, 0.4), wo).eval(wo, wi, Transport::Radiance).f.0.x);
+}
+
+/// A coat whose map bends it mirrors about its own normal.
+#[test]
+fn a_coat_has_its_own_normal() {
+    use radianza::desc::Clearcoat;
+    let clearcoat = Clearcoat {
+        factor: ScalarParam::constant(1.0),
+        roughness: ScalarParam::constant(0.0),
+        normal_map: Some(NormalMap { texture: texture(1), scale: 0.1 }),
+    };
+    let layers = Layers { clearcoat: Some(clearcoat), ..Layers::default() };
+    let model = Model::MetallicRoughness(Box::new(MetallicRoughness { layers, ..gltf(0.0, 0.5) }));
+    let (wo, textures) = (at_cosine(0.9), textures());
+    let bsdf = compile(model).bsdf(&surface(), wo, &textures, &mut Bsdf::new()).clone();
+    // (2 rgb − 1) × (0.1, 0.1, 1) of (0.2, 1, 0.6).
+    let n = Vec3::new(-0.06, 0.1, 0.2).normalize();
+    let deltas = bsdf.deltas(wo, Transport::Radiance);
+    assert!(deltas.len() == 1 && deltas[0].wi.abs_diff_eq(2.0 * wo.dot(n) * n - wo, 1e-5), "{deltas:?}");
 }

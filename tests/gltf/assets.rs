@@ -10,11 +10,7 @@ use std::path::{Path, PathBuf};
 const REFUSED: &[(&str, &str)] = &[("IridescenceSuzanne.glb", "KHR_materials_iridescence")];
 
 /// What is used and noted by which file.
-const NOTED: &[(&str, &str)] = &[
-    ("AnisotropyStrengthTest.glb", "KHR_materials_anisotropy"),
-    ("ClearCoatTest.glb", "KHR_materials_clearcoat"),
-    ("SheenCloth.gltf", "KHR_materials_sheen"),
-];
+const NOTED: &[(&str, &str)] = &[];
 
 #[test]
 fn every_file_is_read_or_refused_for_what_it_requires() {

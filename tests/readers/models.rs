@@ -73,7 +73,7 @@ fn obj_materials() {
     let Model::Diffuse { reflectance } = matt.model else { panic!("{matt:?}") };
     assert_eq!(reflectance.factor, [1.0; 3], "a texture on black is the texture");
     assert_eq!(s.images[0].name, "m.png");
-    let emission = Emission { radiance: ColorParam::constant([1.0, 2.0, 3.0]), sides: Sides::Front };
+    let emission = Emission { radiance: ColorParam::constant([1.0, 2.0, 3.0]), sides: Sides::Front, coat: None };
     assert_eq!(matt.emission, Some(emission));
     assert_eq!(matt.alpha, Alpha::Blend { coverage: ScalarParam::constant(0.5) });
 

@@ -96,7 +96,7 @@ fn materials() {
     let Model::MetallicRoughness(m) = &plastic.model else { panic!() };
     assert_eq!((m.metallic, m.ior), (ScalarParam::constant(0.0), 1.5));
     assert_eq!(m.transmission, Some(Transmission { factor: ScalarParam::constant(0.5), thin: false }));
-    let emission = Emission { radiance: ColorParam::constant([2.0; 3]), sides: Sides::Both };
+    let emission = Emission { radiance: ColorParam::constant([2.0; 3]), sides: Sides::Both, coat: None };
     assert_eq!(plastic.emission, Some(emission));
     let Model::Mix(parts) = &material(&s, "blend").model else { panic!() };
     assert_eq!((parts[0].0, parts[1].0), (0.25, 0.5));
@@ -125,7 +125,7 @@ fn shapes() {
 
     assert_eq!(s.shapes[disk.shape], Shape::Disk { radius: 1.0 });
     assert!(close(disk.to_world.transform_vector3(Vec3::Z), Vec3::Y));
-    let emission = Emission { radiance: ColorParam::constant([17.0, 12.0, 4.0]), sides: Sides::Both };
+    let emission = Emission { radiance: ColorParam::constant([17.0, 12.0, 4.0]), sides: Sides::Both, coat: None };
     assert_eq!(disk.emission, Some(emission));
     assert_eq!(s.materials[disk.material].model, Model::Absorb);
 

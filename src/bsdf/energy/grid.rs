@@ -5,14 +5,14 @@ use rayon::prelude::*;
 
 /// Values at nodes that are equidistant in both variables.
 #[derive(Debug)]
-pub(super) struct Grid {
+pub(in crate::bsdf) struct Grid {
     nx: usize,
     nodes: Vec<Vec4>,
 }
 
 /// Four neighbouring nodes of one variable and the weights of the cubic through them.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Stencil {
+pub(in crate::bsdf) struct Stencil {
     first: u32,
     weights: [f32; 4],
 }
@@ -20,7 +20,7 @@ pub(super) struct Stencil {
 impl Stencil {
     /// For `t` in \[0, 1\] among `n` nodes; the outermost cubics also serve the outermost intervals.
     #[inline]
-    pub(super) fn new(t: f32, n: usize) -> Self {
+    pub(in crate::bsdf) fn new(t: f32, n: usize) -> Self {
         let t = t.clamp(0.0, 1.0) * (n - 1) as f32;
         let first = ((t as usize).max(1) - 1).min(n - 4);
         let x = t - first as f32;
@@ -29,24 +29,47 @@ impl Stencil {
         Self { first: first as u32, weights }
     }
 
+    /// The first of the four nodes.
+    #[inline]
+    pub(in crate::bsdf) fn first(&self) -> usize {
+        self.first as usize
+    }
+
+    /// Weight of the `i`-th of them.
+    #[inline]
+    pub(in crate::bsdf) fn weight(&self, i: usize) -> f32 {
+        self.weights[i]
+    }
+
+    /// The same among nodes that begin `by` later.
+    #[inline]
+    pub(in crate::bsdf) fn shifted(self, by: usize) -> Self {
+        Self { first: self.first + by as u32, ..self }
+    }
+
     /// The cubic through four of the `values`.
     #[inline]
-    pub(super) fn over(&self, values: &[Vec4]) -> Vec4 {
+    pub(in crate::bsdf) fn over(&self, values: &[Vec4]) -> Vec4 {
         (0..4).map(|i| values[self.first as usize + i] * self.weights[i]).sum()
     }
 }
 
 impl Grid {
     /// Evaluates `f` at the `nx` × `ny` nodes, given as integers, on all cores.
-    pub(super) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
+    pub(in crate::bsdf) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
         let nodes = (0..nx * ny).into_par_iter().map(|i| f(i % nx, i / nx)).collect();
         Self { nx, nodes }
     }
 
     /// Value at `x` in \[0, 1\] and the stencil `y` of the other variable.
     #[inline]
-    pub(super) fn at(&self, x: f32, y: Stencil) -> Vec4 {
-        let x = Stencil::new(x, self.nx);
+    pub(in crate::bsdf) fn at(&self, x: f32, y: Stencil) -> Vec4 {
+        self.with(Stencil::new(x, self.nx), y)
+    }
+
+    /// Value at the stencils of both variables.
+    #[inline]
+    pub(in crate::bsdf) fn with(&self, x: Stencil, y: Stencil) -> Vec4 {
         let mut sum = Vec4::ZERO;
         for j in 0..4 {
             let row = &self.nodes[(y.first as usize + j) * self.nx + x.first as usize..][..4];

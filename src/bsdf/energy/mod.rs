@@ -11,11 +11,16 @@
 //! whose albedo is F_ms loss(o). So a lossless lobe (F_ms = 1) reflects exactly what falls on it, up to the error of the
 //! tables here: the quadrature is converged, the interpolation cubic, and `loss_avg` belongs to the interpolant.
 
+mod atlas;
 mod grid;
 mod interface;
+mod mean;
 mod quadrature;
 mod sampling;
 mod table;
 
+pub use atlas::Atlas;
+pub(super) use grid::{Grid, Stencil};
 pub use interface::{Energy, Interface};
+pub(super) use quadrature::gauss_legendre;
 pub use table::{EnergyTable, Slice};

@@ -4,7 +4,7 @@ use glam::DVec3;
 use std::f64::consts::PI;
 
 /// Gauss–Legendre nodes and weights on \[0, 1\], by Newton's method on Pₙ (Abramowitz & Stegun 25.4.29).
-pub(super) fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
+pub(in crate::bsdf) fn gauss_legendre<const N: usize>() -> [(f64, f64); N] {
     std::array::from_fn(|i| {
         let n = N as f64;
         let mut x = (PI * (i as f64 + 0.75) / (n + 0.5)).cos();

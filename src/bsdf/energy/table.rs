@@ -1,5 +1,6 @@
 //! Tables of the energy over direction and roughness, computed once for each interface.
 
+use super::atlas::{Atlas, Pair};
 use super::grid::{Grid, Stencil};
 use super::interface::{Energy, Interface};
 use super::quadrature::{Rule, gauss_legendre};
@@ -34,14 +35,22 @@ pub struct EnergyTable {
 /// A table at one roughness: what a lobe carries.
 #[derive(Clone, Copy, Debug)]
 pub struct Slice {
-    table: &'static EnergyTable,
+    source: Source,
     ggx: Ggx,
-    row: Stencil,
     /// The larger α, squared, and ln(1 + 1/α²).
     pub(super) alpha2: f32,
     pub(super) log: f32,
     /// Cosine-weighted means over the hemisphere.
     pub mean: Energy,
+}
+
+/// Where energies are looked up.
+#[derive(Clone, Copy, Debug)]
+enum Source {
+    /// The row of a table.
+    Table(&'static EnergyTable, Stencil),
+    /// Every pair of roughnesses.
+    Atlas(&'static Atlas, Pair),
 }
 
 impl Slice {
@@ -63,18 +72,39 @@ impl Slice {
         Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, N_ALPHA), mean)
     }
 
+    /// Any pair of roughnesses of a mirroring microsurface, without a table of its own.
+    #[inline]
+    pub fn anisotropic(atlas: &'static Atlas, ggx: Ggx) -> Self {
+        let pair = Pair::new(ggx);
+        Self::of(Source::Atlas(atlas, pair), ggx, atlas.mean(&pair))
+    }
+
     #[inline]
     fn with(table: &'static EnergyTable, ggx: Ggx, row: Stencil, mean: Energy) -> Self {
+        Self::of(Source::Table(table, row), ggx, mean)
+    }
+
+    #[inline]
+    fn of(source: Source, ggx: Ggx, mean: Energy) -> Self {
         let alpha2 = sqr(ggx.ax.max(ggx.ay));
-        Self { table, ggx, row, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
+        Self { source, ggx, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
+    }
+
+    /// Energies depend on the azimuth.
+    pub(in crate::bsdf) fn is_anisotropic(&self) -> bool {
+        self.ggx.ax != self.ggx.ay
     }
 
     /// Energy of the direction `w`, on either side.
     #[inline]
     pub fn at(&self, w: Vec3) -> Energy {
-        let (mu, table) = (w.z.abs().min(1.0), self.table);
+        let (table, row) = match &self.source {
+            Source::Table(table, row) => (table, *row),
+            Source::Atlas(atlas, pair) => return atlas.at(self.ggx, pair, w),
+        };
+        let mu = w.z.abs().min(1.0);
         let (alpha, row) = if self.ggx.ax == self.ggx.ay {
-            (self.ggx.ax, self.row)
+            (self.ggx.ax, row)
         } else {
             let (alpha, t) = azimuth(self.ggx, w);
             (alpha, Stencil::new(t, N_AZIMUTH))
@@ -145,16 +175,9 @@ impl EnergyTable {
                     };
                     node(i, phi, at(phi).0, ggx)
                 });
-                // Midpoints in the stretched azimuth t, where the interpolant is smooth: dφ = αφ²/(αx αy) dt.
-                const N: usize = 128;
-                let mut sum = [0.0; 3];
-                for j in 0..N {
-                    let (sin, cos) = ((j as f64 + 0.5) / N as f64 * FRAC_PI_2).sin_cos();
-                    let (alpha, t) = at((sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax)));
-                    let mean = mean_over_cosine(interface, &grid, Stencil::new(t, N_AZIMUTH), alpha);
-                    let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
-                    sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
-                }
+                let sum = mean_over_azimuth(ggx, |t, alpha| {
+                    mean_over_cosine(interface, &grid, Stencil::new(t, N_AZIMUTH), alpha)
+                });
                 Self { interface, grid, means: vec![pack_mean(sum)] }
             }
         }
@@ -164,7 +187,7 @@ impl EnergyTable {
 /// Where μ stands in the grid: steps in proportion to μ where μ > α, ever finer ones towards the horizon, and likewise
 /// about the critical angle, where features are as wide as α.
 #[inline]
-fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
+pub(super) fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
     let x = (asinh(mu / alpha) / asinh(1.0 / alpha)).sqrt();
     let critical = interface.critical();
     if critical == 0.0 {
@@ -182,7 +205,7 @@ fn asinh(t: f32) -> f32 {
 }
 
 /// Where a growing function takes the value `x` in \[0, 1\].
-fn invert(x: f32, of: impl Fn(f32) -> f32) -> f32 {
+pub(super) fn invert(x: f32, of: impl Fn(f32) -> f32) -> f32 {
     let (mut low, mut high) = (0.0f32, 1.0f32);
     for _ in 0..60 {
         let middle = 0.5 * (low + high);
@@ -197,14 +220,14 @@ fn log_alpha(alpha: f32) -> f32 {
     1.0 - alpha.ln() / LOG_MIN
 }
 
-fn alpha_of(t: f32) -> f32 {
+pub(super) fn alpha_of(t: f32) -> f32 {
     ((1.0 - t) * LOG_MIN).exp()
 }
 
 /// The roughness that a direction's azimuth meets, and the place of the azimuth among the nodes in \[0, 1\]: the mean of
 /// itself and of its stretched image, for energies change with both.
 #[inline]
-fn azimuth(ggx: Ggx, w: Vec3) -> (f32, f32) {
+pub(super) fn azimuth(ggx: Ggx, w: Vec3) -> (f32, f32) {
     let (x, y, r) = (ggx.ax * w.x.abs(), ggx.ay * w.y.abs(), w.x.hypot(w.y));
     if r < 1e-12 {
         return (ggx.ax, 0.0);
@@ -215,7 +238,7 @@ fn azimuth(ggx: Ggx, w: Vec3) -> (f32, f32) {
 
 /// Rough shape of the loss.
 #[inline]
-fn shape(mu: f32, alpha: f32) -> f32 {
+pub(super) fn shape(mu: f32, alpha: f32) -> f32 {
     sqr(alpha) / (sqr(mu) + sqr(alpha))
 }
 
@@ -242,6 +265,22 @@ fn pack_mean([loss, a, b]: [f64; 3]) -> Vec4 {
 #[inline]
 fn unpack_mean(v: Vec4) -> Energy {
     Energy { loss: v.x.exp(), parts: [v.y, v.z] }
+}
+
+/// Mean over the azimuth of `of` the place t of an azimuth and the roughness that it meets: midpoints in the stretched
+/// azimuth, where interpolants are smooth, dφ = αφ²/(αx αy) dt.
+fn mean_over_azimuth(ggx: Ggx, of: impl Fn(f32, f32) -> [f64; 3]) -> [f64; 3] {
+    const N: usize = 128;
+    let mut sum = [0.0; 3];
+    for j in 0..N {
+        let (sin, cos) = ((j as f64 + 0.5) / N as f64 * FRAC_PI_2).sin_cos();
+        let phi = (sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax));
+        let (alpha, t) = azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
+        let mean = of(t, alpha);
+        let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
+        sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
+    }
+    sum
 }
 
 /// 2 ∫ e(μ) μ dμ of the interpolant.

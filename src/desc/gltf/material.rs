@@ -1,15 +1,17 @@
 //! Materials (glTF 2.0, section 3.9).
 
 use super::Reader;
+use super::extensions::kind;
 use super::slot::Slot;
 use super::uv_sets::UvSets;
 use crate::desc::{
-    Alpha, ColorParam, Emission, Error, Interior, Material, MetallicRoughness, Model, NormalMap, ScalarParam, Sides,
-    TextureRef,
+    Alpha, ColorParam, Emission, Error, Interior, Layers, Material, MetallicRoughness, Model, NormalMap, ScalarParam,
+    Sides, TextureRef,
 };
 use gltf::json;
 use json::material::AlphaMode;
 use json::validation::Checked;
+use serde_json::Value;
 
 /// Channels of textures.
 const R: usize = 0;
@@ -72,7 +74,7 @@ impl Reader<'_> {
                 place,
                 "`KHR_materials_unlit`: the material emits its base colour on both sides and reflects nothing",
             );
-            let emission = Emission { radiance: base_color, sides: Sides::Both };
+            let emission = Emission { radiance: base_color, sides: Sides::Both, coat: None };
             return Ok(surface(Model::Absorb, Some(emission)));
         }
 
@@ -90,11 +92,20 @@ impl Reader<'_> {
             specular: dielectric.specular,
             specular_color: dielectric.specular_color,
             transmission: dielectric.transmission,
+            layers: Layers {
+                anisotropy: self.anisotropy(extensions, place)?,
+                sheen: self.sheen(extensions, place)?,
+                clearcoat: self.clearcoat(extensions, place)?,
+            },
         }));
         if m.occlusion_texture.is_some() {
             self.notes.at(place, "occlusion textures are ignored: light transport finds what is occluded");
         }
-        let emission = self.emission(m, place)?;
+        let coat = match &model {
+            Model::MetallicRoughness(m) => m.layers.clearcoat.map(|coat| coat.factor),
+            _ => None,
+        };
+        let emission = self.emission(m, place)?.map(|emission| Emission { coat, ..emission });
         let normal_map = self.normal_map(m.normal_texture.as_ref(), &format!("{place}/normalTexture"))?;
         Ok(Material { normal_map, interior: dielectric.interior, ..surface(model, emission) })
     }
@@ -116,7 +127,7 @@ impl Reader<'_> {
         }
         let texture = self.color_texture(m.emissive_texture.as_ref(), &format!("{place}/emissiveTexture"))?;
         let sides = if m.double_sided { Sides::Both } else { Sides::Front };
-        Ok(Some(Emission { radiance: ColorParam { factor, texture, vertex_color: false }, sides }))
+        Ok(Some(Emission { radiance: ColorParam { factor, texture, vertex_color: false }, sides, coat: None }))
     }
 
     fn normal_map(
@@ -153,6 +164,21 @@ impl Reader<'_> {
         self.texture(slot, false, place)
     }
 
+    /// The object of an extension that the `gltf` crate leaves untyped, and its place.
+    pub(super) fn untyped<'e>(
+        &self,
+        extensions: Option<&'e json::extensions::material::Material>,
+        name: &str,
+        place: &str,
+    ) -> Result<Option<(&'e Value, String)>, Error> {
+        let Some(object) = extensions.and_then(|e| e.others.get(name)) else { return Ok(None) };
+        let place = format!("{place}/extensions/{name}");
+        if !object.is_object() {
+            return Err(self.source.invalid(place, format!("is {}; expected an object", kind(object))));
+        }
+        Ok(Some((object, place)))
+    }
+
     /// Numbers in [0, 1].
     fn units<const N: usize>(&mut self, mut xs: [f32; N], place: &str) -> Result<[f32; N], Error> {
         for x in &mut xs {
@@ -160,6 +186,15 @@ impl Reader<'_> {
         }
         Ok(xs)
     }
+}
+
+/// Whose UV the tangents are for that a material needs: its normal map's, else that of what lies over or stretches it.
+pub(super) fn tangent_map(m: &Material) -> Option<TextureRef> {
+    let layers = match &m.model {
+        Model::MetallicRoughness(p) => p.layers.tangent_map(),
+        _ => None,
+    };
+    m.normal_map.map(|map| map.texture).or(layers)
 }
 
 /// Which of the two UV sets of a mesh the textures of a material look at.
@@ -183,6 +218,7 @@ pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
         let scalars =
             [Some(&p.metallic), Some(&p.roughness), Some(&p.specular), p.transmission.as_ref().map(|t| &t.factor)];
         scalars.into_iter().flatten().for_each(|p| look(scalar(p)));
+        p.layers.textures().for_each(|t| look(Some(t)));
     }
     used
 }

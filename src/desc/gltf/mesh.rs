@@ -111,7 +111,7 @@ impl Reader<'_> {
         }
         // The file's own tangents count only beside normals of its own.
         let lacks_tangents = attributes[1].is_none() || attributes[2].is_none();
-        let map = self.scene.materials[material].normal_map.map(|map| map.texture);
+        let map = material::tangent_map(&self.scene.materials[material]);
         let map = map.filter(|map| lacks_tangents && attributes[3 + map.uv_set].is_some());
 
         // A stream holds a list of triangles, whatever the mode that they are drawn by.

@@ -7,6 +7,7 @@
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
+//! | `KHR_materials_anisotropy`, `_sheen`, `_clearcoat` | [`Layers`](super::Layers) of the material; a sheen roughness below 0.05 is 0.05 |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
 //! | `range` of a light | the end that the extension requires, by the window that it recommends |
@@ -34,9 +35,11 @@
 
 mod accessor;
 mod animation;
+mod anisotropy;
 mod budget;
 mod buffers;
 mod camera;
+mod clearcoat;
 mod component;
 mod container;
 mod dielectric;
@@ -57,6 +60,7 @@ mod node;
 mod normals;
 mod notes;
 mod profile;
+mod sheen;
 mod skin;
 mod slot;
 mod tangents;

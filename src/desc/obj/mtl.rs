@@ -13,8 +13,8 @@
 use super::numbers;
 use crate::desc::files::Folder;
 use crate::desc::{
-    Alpha, ColorParam, Emission, Error, Image, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam,
-    Scene, Sides, Texture, TextureRef, Wrap, image_file,
+    Alpha, ColorParam, Emission, Error, Image, Layers, Material, MetallicRoughness, Model, NormalMap, Roughness,
+    ScalarParam, Scene, Sides, Texture, TextureRef, Wrap, image_file,
 };
 use glam::Affine2;
 use std::path::Path;
@@ -178,7 +178,7 @@ impl Statements {
         let glow = if self.map_ke.is_some() && black(self.ke) { [1.0; 3] } else { self.ke };
         if !black(glow) {
             let radiance = ColorParam { factor: glow, texture: self.map_ke, vertex_color: false };
-            material.emission = Some(Emission { radiance, sides: Sides::Front });
+            material.emission = Some(Emission { radiance, sides: Sides::Front, coat: None });
         }
         material.normal_map = self.norm.map(|texture| NormalMap { texture, scale: 1.0 });
         let refracts = matches!(material.model, Model::Dielectric { .. });
@@ -201,5 +201,6 @@ fn gloss(base_color: ColorParam, metallic: ScalarParam, roughness: ScalarParam, 
         specular: ScalarParam::constant(1.0),
         specular_color: ColorParam::constant(specular_color),
         transmission: None,
+        layers: Layers::default(),
     }))
 }

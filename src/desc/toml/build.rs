@@ -123,7 +123,7 @@ impl<'a> Builder<'a> {
         let material = material.as_ref().map(|m| self.material(m)).transpose()?;
         let emission = match emission {
             None => None,
-            Some(radiance) => Some(Emission { radiance: radiance.build(self)?, sides: *emission_sides }),
+            Some(radiance) => Some(Emission { radiance: radiance.build(self)?, sides: *emission_sides, coat: None }),
         };
 
         if let ShapeKind::FileShape(f) = kind {

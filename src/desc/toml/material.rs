@@ -4,12 +4,12 @@ use super::build::Builder;
 use super::color::{Radiance, Reflectance, Scalar};
 use super::interior::{self, InteriorTable};
 use super::keys::{keys, one_of};
+use super::layers::LayersTable;
 use super::metals;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Number, Positive, Read, mismatch, suggest, words};
 use super::schema::Defs;
 use crate::desc::{
-    Alpha, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
-    Transmission,
+    Alpha, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, Roughness, ScalarParam, Sides, Transmission,
 };
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
@@ -133,6 +133,7 @@ keys! {
         /// Whether what passes goes straight on, as through a thin sheet, or is refracted. Default true.
         thin: bool = true,
         ..interior: InteriorTable,
+        ..layers: LayersTable,
     }
 }
 
@@ -181,7 +182,7 @@ keys! {
 
 /// A texture's name, or a table.
 #[derive(Clone, Debug)]
-pub(super) struct NormalMapValue(NormalMapTable);
+pub(super) struct NormalMapValue(pub(super) NormalMapTable);
 
 impl Read for NormalMapValue {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
@@ -213,11 +214,14 @@ impl MaterialTable {
         let mut material = Material::new(name, self.kind.build(at, b)?);
         material.interior = self.kind.interior()?;
         if let Some(radiance) = &self.emission {
-            material.emission = Some(Emission { radiance: radiance.build(b)?, sides: self.emission_sides });
+            let coat = match &material.model {
+                Model::MetallicRoughness(m) => m.layers.clearcoat.map(|coat| coat.factor),
+                _ => None,
+            };
+            material.emission = Some(Emission { radiance: radiance.build(b)?, sides: self.emission_sides, coat });
         }
-        if let Some(NormalMapValue(map)) = &self.normal_map {
-            let texture = b.texture(&map.texture, map.uv_set, false)?;
-            material.normal_map = Some(NormalMap { texture, scale: map.scale.0 });
+        if let Some(map) = &self.normal_map {
+            material.normal_map = Some(map.build(b)?);
         }
         material.alpha = match (&self.opacity, self.opacity_cutoff) {
             (None, None) => Alpha::Opaque,
@@ -329,6 +333,7 @@ impl MetallicRoughnessTable {
             specular: self.specular.build(b)?,
             specular_color: self.specular_color.build(b)?,
             transmission,
+            layers: self.layers.build(b)?,
         })))
     }
 }

@@ -53,6 +53,7 @@ mod color;
 mod derived;
 mod interior;
 mod keys;
+mod layers;
 mod light;
 mod material;
 mod metals;

@@ -147,6 +147,9 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => of("roughness", &[p.factor], Share),
         Roughness::Alpha(a) => of("roughness", a, Share),
+        Roughness::Stretched { roughness, strength } => {
+            [of("roughness", &[roughness.factor], Share), of("anisotropy", &[strength.factor], Share)].concat()
+        }
     };
     match model {
         Model::Absorb | Model::Mix(_) => Vec::new(),
@@ -165,6 +168,17 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
             let mut all = of("base colour", &m.base_color.factor, Share);
             all.extend(names.into_iter().zip(shares).map(|(what, x)| (what, x, Share)));
             all.push(("index of refraction", m.ior, NotNegative));
+            if let Some(a) = &m.layers.anisotropy {
+                all.push(("anisotropy", a.strength.factor, Share));
+            }
+            if let Some(sheen) = &m.layers.sheen {
+                all.extend(of("sheen", &sheen.color.factor, Share));
+                all.push(("roughness of the sheen", sheen.roughness.factor, Share));
+            }
+            if let Some(coat) = &m.layers.clearcoat {
+                all.push(("clear coat", coat.factor.factor, Share));
+                all.push(("roughness of the coat", coat.roughness.factor, Share));
+            }
             all
         }
     }

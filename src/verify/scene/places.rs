@@ -62,6 +62,7 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
     };
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => scalar("roughness", p),
+        Roughness::Stretched { roughness, .. } => scalar("roughness", roughness),
         Roughness::Alpha(_) => None,
     };
     match m {
@@ -81,9 +82,16 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
         Model::MetallicRoughness(m) => {
             color("base colour", &m.base_color);
             color("specular colour", &m.specular_color);
+            if let Some(sheen) = &m.layers.sheen {
+                color("sheen", &sheen.color);
+            }
             readings.extend(scalar("roughness", &m.roughness));
             readings.extend(scalar("metalness", &m.metallic));
             readings.extend(scalar("specular", &m.specular));
+            readings.extend(m.layers.anisotropy.and_then(|a| scalar("anisotropy", &a.strength)));
+            readings.extend(m.layers.sheen.and_then(|s| scalar("roughness of the sheen", &s.roughness)));
+            readings.extend(m.layers.clearcoat.and_then(|c| scalar("coat", &c.factor)));
+            readings.extend(m.layers.clearcoat.and_then(|c| scalar("roughness of the coat", &c.roughness)));
             readings.extend(m.transmission.as_ref().and_then(|t| scalar("transmission", &t.factor)));
         }
     }

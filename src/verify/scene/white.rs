@@ -24,6 +24,7 @@ fn white(model: &Model) -> Option<Model> {
         Model::MetallicRoughness(m) => {
             let mut m = m.clone();
             m.base_color = WHITE;
+            (m.layers.sheen, m.layers.clearcoat) = (None, None);
             Model::MetallicRoughness(m)
         }
         Model::Mix(parts) => {

@@ -58,6 +58,9 @@ pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: 
         Roughness::Perceptual(p) => format!("roughness {:.2}", param::scalar(p, at)),
         Roughness::Alpha([a, b]) if a == b => format!("α {a}"),
         Roughness::Alpha([a, b]) => format!("α {a} × {b}"),
+        Roughness::Stretched { roughness, strength } => {
+            format!("roughness {:.2}, anisotropy {:.2}", param::scalar(roughness, at), param::scalar(strength, at))
+        }
     };
     fn of(model: &Model, rough: &dyn Fn(&Roughness) -> String, at: Point) -> String {
         match model {
@@ -83,12 +86,16 @@ pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> 
         let alpha = match r {
             Roughness::Perceptual(p) => param::scalar(p, at).powi(2),
             Roughness::Alpha([a, b]) => a.min(*b),
+            Roughness::Stretched { roughness, .. } => param::scalar(roughness, at).powi(2),
         };
         (alpha >= MIN_ALPHA).then_some(f64::from(alpha))
     };
     match model {
         Model::Conductor { roughness, .. } | Model::Dielectric { roughness, .. } => rough(roughness),
-        Model::MetallicRoughness(m) => rough(&Roughness::Perceptual(m.roughness)),
+        Model::MetallicRoughness(m) => {
+            let coat = m.layers.clearcoat.and_then(|coat| rough(&Roughness::Perceptual(coat.roughness)));
+            rough(&Roughness::Perceptual(m.roughness)).into_iter().chain(coat).min_by(f64::total_cmp)
+        }
         Model::Mix(parts) => {
             parts.iter().filter_map(|(_, part)| least_alpha(part, textures, place)).min_by(f64::total_cmp)
         }

@@ -58,7 +58,7 @@ impl Placed {
     }
 
     fn emits(&self, wi: Vec3, hit: &Surface) -> bool {
-        !self.light.le(&hit.uv, hit.color, wi.dot(hit.ng) < 0.0, &Textures::default()).is_black()
+        !self.light.le(&hit.uv, hit.color, -wi.dot(hit.ng), &Textures::default()).is_black()
     }
 
     /// Where a ray goes on behind a hit.
@@ -167,7 +167,7 @@ impl Placed {
         // A direction off by an ulp moves the hit by d, and the cosine on a sphere of radius r by d/(r cos).
         let rounding = 1e-6 * (1.0 + t) / (cos * cos);
         let deviation = (self.light.pdf(self.p, hit.p, hit.ng) / pdf - 1.0).abs() - rounding;
-        let mut le = self.light.le(&hit.uv, hit.color, s.wi.dot(hit.ng) < 0.0, &Textures::default());
+        let mut le = self.light.le(&hit.uv, hit.color, -s.wi.dot(hit.ng), &Textures::default());
         if let Light::Triangle(triangle) = &self.light
             && triangle.is_pictured()
         {

@@ -54,7 +54,7 @@ impl Lit<'_> {
         let (mut sum, mut ray) = (0.0, Ray::new(self.p, wi));
         for _ in 0..count {
             let Some((_, hit)) = self.light.intersect(&ray) else { break };
-            sum += f64::from(self.light.le(&hit.uv, hit.color, wi.dot(hit.ng) < 0.0, self.textures).0.x);
+            sum += f64::from(self.light.le(&hit.uv, hit.color, -wi.dot(hit.ng), self.textures).0.x);
             ray = Ray::new(offset_origin(hit.p, hit.p_error, hit.ng, wi), wi);
         }
         sum

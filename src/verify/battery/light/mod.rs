@@ -37,7 +37,7 @@ pub(super) fn tasks() -> Vec<Task> {
 
 /// Uniform grey emission of radiance 1.
 fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([1.0; 3]), sides }
+    Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None }
 }
 
 /// An emissive triangle of radiance 1, where the corners span one.

@@ -112,7 +112,9 @@ fn textured(trial: &Trial, found: &mut Findings) {
     };
     for (k, (name, height)) in [("near", 0.4), ("far", 5.0)].into_iter().enumerate() {
         let p = [Vec3::new(1.0, -0.5, height), Vec3::new(-1.0, -1.0, height), Vec3::new(0.2, 1.5, height)];
-        let Some(light) = TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front }) else {
+        let Some(light) =
+            TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front, coat: None })
+        else {
             found.checks.holds(format!("{name} is a triangle"), false);
             continue;
         };

@@ -21,7 +21,12 @@ pub(super) fn tasks() -> Vec<Task> {
             let cosines: &[f64] = trial.pick(&[0.8, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.006]);
             let granted = tables(&s);
             // The albedo of rough metals comes from a fit of their Fresnel term, which costs choices and no light.
-            let told = if s.name.starts_with("gold") { GOLD } else { granted };
+            let told = match &*s.name {
+                name if name.contains("beneath") => BENEATH,
+                name if name.starts_with("gold") => GOLD,
+                name if name.starts_with("sheen") => SHEEN,
+                _ => granted,
+            };
             for side in [1.0, -1.0].into_iter().take(if refracts(&s) { 2 } else { 1 }) {
                 let claims = Claims { lossless: s.lossless, granted, ..Claims::default() };
                 curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims, told);
@@ -60,6 +65,12 @@ fn roughnesses(trial: &Trial) -> impl Iterator<Item = f32> {
 
 /// Error of the fit of metals.
 const GOLD: f64 = 3e-2;
+
+/// Error of the table of sheen where little is reflected.
+const SHEEN: f64 = 1e-2;
+
+/// What is told of lobes beneath layers, and of tilted ones, is a bound that is this near.
+const BENEATH: f64 = 0.2;
 
 /// Below this μα a half-vector in f32, whose slope is off by 6·10⁻⁸/μ, no longer resolves a lobe of width α.
 const HALF_VECTOR: f64 = 1e-5;
