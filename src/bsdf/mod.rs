@@ -9,11 +9,13 @@
 //! | file | lobes |
 //! | --- | --- |
 //! | `lambert` | Lambert; diffuse base coupled to a specular coat |
+//! | `diffuse_transmission` | diffuse to the other side |
 //! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
 //! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
 //! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
+mod diffuse_transmission;
 mod energy;
 pub mod fresnel;
 pub mod ggx;
@@ -25,6 +27,7 @@ mod rough_reflection;
 mod smooth;
 mod specimens;
 
+pub use diffuse_transmission::DiffuseTransmission;
 pub use energy::{Energy, EnergyTable, Interface, Slice};
 pub use fresnel::Fresnel;
 pub use ggx::{Ggx, MIN_ALPHA};

@@ -101,6 +101,8 @@ pub struct MetallicRoughness {
     pub specular_color: ColorParam,
     /// KHR_materials_transmission, with KHR_materials_volume deciding whether it is thin.
     pub transmission: Option<Transmission>,
+    /// KHR_materials_diffuse_transmission.
+    pub diffuse_transmission: Option<DiffuseTransmission>,
 }
 
 /// KHR_materials_transmission.
@@ -109,6 +111,17 @@ pub struct Transmission {
     /// Share of the diffuse base that is transmitted instead.
     pub factor: ScalarParam,
     /// True: an infinitely thin sheet that does not bend light; false (KHR_materials_volume with thickness): refracts.
+    pub thin: bool,
+}
+
+/// KHR_materials_diffuse_transmission: what of the diffuse base is not transmitted otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiffuseTransmission {
+    /// Share of the diffuse base that transmits instead of reflecting.
+    pub factor: ScalarParam,
+    /// Colour of what it transmits.
+    pub color: ColorParam,
+    /// True: a sheet; false (KHR_materials_volume with thickness): the surface of a volume.
     pub thin: bool,
 }
 
@@ -195,6 +208,11 @@ impl ScalarParam {
 impl MetallicRoughness {
     /// Light passes into a volume behind the surface.
     pub fn encloses(&self) -> bool {
+        self.refracts() || self.diffuse_transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0)
+    }
+
+    /// Some of that is refracted at the surface.
+    pub fn refracts(&self) -> bool {
         self.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0)
     }
 }
@@ -208,7 +226,10 @@ impl Model {
             Self::Conductor { fresnel: Fresnel::Schlick { f0 }, .. } => vec![f0],
             Self::Conductor { fresnel: Fresnel::Complex { .. }, .. } | Self::Absorb => Vec::new(),
             Self::Mix(parts) => parts.iter_mut().flat_map(|(_, model)| model.colors_mut()).collect(),
-            Self::MetallicRoughness(m) => vec![&mut m.base_color, &mut m.specular_color],
+            Self::MetallicRoughness(m) => {
+                let through = m.diffuse_transmission.as_mut().map(|t| &mut t.color);
+                [&mut m.base_color, &mut m.specular_color].into_iter().chain(through).collect()
+            }
         }
     }
 }

@@ -29,8 +29,8 @@ pub use frame_camera::{bounds, framing};
 pub use interior::{Dispersion, Interior, absorption};
 pub use load::load;
 pub use material::{
-    Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
-    Transmission,
+    Alpha, ColorParam, DiffuseTransmission, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap,
+    Roughness, ScalarParam, Sides, Transmission,
 };
 pub use settings::{Filter, Integrator, RenderSettings, SamplerKind, Strategy, Tonemap};
 pub use shape::{Mesh, Object, Shape};

@@ -207,7 +207,9 @@ pub fn most_lobes(model: &desc::Model) -> usize {
     match model {
         desc::Model::Absorb => 0,
         desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
-        desc::Model::MetallicRoughness(m) => 2 + usize::from(m.transmission.is_some()),
+        desc::Model::MetallicRoughness(m) => {
+            2 + usize::from(m.transmission.is_some()) + usize::from(m.diffuse_transmission.is_some())
+        }
         _ => 1,
     }
 }

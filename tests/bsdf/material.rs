@@ -46,6 +46,7 @@ fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
         specular: ScalarParam::constant(1.0),
         specular_color: WHITE,
         transmission: None,
+        diffuse_transmission: None,
     }
 }
 

@@ -6,8 +6,9 @@ use serde_json::Value;
 use std::path::Path;
 
 /// Extensions whose meaning reaches the picture.
-pub const HONOURED: [&str; 9] = [
+pub const HONOURED: [&str; 10] = [
     "KHR_lights_punctual",
+    "KHR_materials_diffuse_transmission",
     "KHR_materials_dispersion",
     "KHR_materials_emissive_strength",
     "KHR_materials_ior",

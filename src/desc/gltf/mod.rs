@@ -24,6 +24,7 @@ mod buffers;
 mod camera;
 mod container;
 mod dielectric;
+mod diffuse_transmission;
 mod document;
 mod extensions;
 mod interior;

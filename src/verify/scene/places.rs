@@ -81,9 +81,13 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
         Model::MetallicRoughness(m) => {
             color("base colour", &m.base_color);
             color("specular colour", &m.specular_color);
+            if let Some(through) = &m.diffuse_transmission {
+                color("diffuse transmission colour", &through.color);
+            }
             readings.extend(scalar("roughness", &m.roughness));
             readings.extend(scalar("metalness", &m.metallic));
             readings.extend(scalar("specular", &m.specular));
+            readings.extend(m.diffuse_transmission.as_ref().and_then(|t| scalar("diffuse transmission", &t.factor)));
             readings.extend(m.transmission.as_ref().and_then(|t| scalar("transmission", &t.factor)));
         }
     }

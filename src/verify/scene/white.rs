@@ -24,6 +24,9 @@ fn white(model: &Model) -> Option<Model> {
         Model::MetallicRoughness(m) => {
             let mut m = m.clone();
             m.base_color = WHITE;
+            if let Some(through) = &mut m.diffuse_transmission {
+                through.color = WHITE;
+            }
             Model::MetallicRoughness(m)
         }
         Model::Mix(parts) => {
