@@ -1,5 +1,6 @@
 //! The closed family of lobes: one arm each, to the files that know them.
 
+use super::diffuse_transmission::DiffuseTransmission;
 use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
 use super::rough_dielectric::RoughDielectric;
 use super::rough_reflection::{RoughReflection, RoughThin};
@@ -17,6 +18,8 @@ pub enum Lobe {
     Lambert(Lambert),
     /// Diffuse base under a specular coat.
     CoupledDiffuse(CoupledDiffuse),
+    /// Diffuse to the other side.
+    DiffuseTransmission(DiffuseTransmission),
     /// Perfectly smooth reflection.
     Mirror(Mirror),
     /// Perfectly smooth dielectric interface.
@@ -44,7 +47,7 @@ impl Lobe {
     #[inline]
     pub fn class(&self) -> Class {
         match self {
-            Self::Lambert(_) | Self::CoupledDiffuse(_) => Class::Diffuse,
+            Self::Lambert(_) | Self::CoupledDiffuse(_) | Self::DiffuseTransmission(_) => Class::Diffuse,
             _ => Class::Specular,
         }
     }
@@ -58,7 +61,7 @@ impl Lobe {
     /// Light crosses the surface, other than as a delta.
     #[inline]
     pub fn transmits(&self) -> bool {
-        matches!(self, Self::RoughThin(_) | Self::RoughDielectric(_))
+        matches!(self, Self::DiffuseTransmission(_) | Self::RoughThin(_) | Self::RoughDielectric(_))
     }
 
     /// f \[1/sr\] and density \[1/sr\] of `wi` among the draws of this lobe; 0 for deltas.
@@ -71,6 +74,7 @@ impl Lobe {
             Self::RoughThin(l) => l.eval(wo, wi),
             Self::RoughDielectric(l) => l.eval(wo, wi, mode),
             Self::Sheen(l) => l.eval(wo, wi),
+            Self::DiffuseTransmission(l) => l.eval(wo, wi, mode),
             _ => (Spectrum::ZERO, 0.0),
         }
     }
@@ -80,6 +84,7 @@ impl Lobe {
     pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<(Vec3, f32)> {
         match self {
             Self::Lambert(_) | Self::CoupledDiffuse(_) => Some((sample_cosine(wo, u), 1.0)),
+            Self::DiffuseTransmission(l) => Some(l.sample(wo, u)),
             Self::RoughReflection(l) => Some((l.sample(wo, uc, u)?, 1.0)),
             Self::RoughThin(l) => Some((l.sample(wo, uc, u)?, 1.0)),
             Self::RoughDielectric(l) => {
@@ -108,6 +113,7 @@ impl Lobe {
         match self {
             Self::Lambert(l) => l.reflectance,
             Self::CoupledDiffuse(l) => l.albedo(wo),
+            Self::DiffuseTransmission(l) => l.albedo(wo),
             Self::Mirror(l) => l.fresnel.eval(wo.z.abs().min(1.0)),
             Self::SmoothDielectric(l) => l.albedo(wo),
             Self::ThinTransmission(l) => l.albedo(wo),

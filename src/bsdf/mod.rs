@@ -9,6 +9,7 @@
 //! | file | lobes |
 //! | --- | --- |
 //! | `lambert` | Lambert; diffuse base coupled to a specular coat |
+//! | `diffuse_transmission` | diffuse to the other side |
 //! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
 //! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
@@ -16,6 +17,7 @@
 //! | `entry`, `layer` | a lobe in its frame, and beneath the layers that dim it |
 //! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
+mod diffuse_transmission;
 mod energy;
 mod entry;
 pub mod fresnel;
@@ -30,6 +32,7 @@ mod sheen;
 mod smooth;
 mod specimens;
 
+pub use diffuse_transmission::DiffuseTransmission;
 pub use energy::{Atlas, Energy, EnergyTable, Interface, Slice};
 pub use entry::MAX_LAYERS;
 pub use fresnel::Fresnel;

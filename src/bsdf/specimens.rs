@@ -58,6 +58,16 @@ pub fn specimens() -> Vec<Specimen> {
     }
     all.add("rough dielectric α [0.1, 0.5]", true, || glass([0.1, 0.5], 1.5));
 
+    all.add("thin sheet, diffuse", true, move || diffuse_sheet(Some(0.3), 1.0, [Spectrum::ONE; 2]));
+    all.add("diffuse dielectric", false, move || diffuse_sheet(None, 1.5, [grey, Spectrum::ONE]));
+    all.add("thin sheet, smooth", true, || {
+        let fresnel = Fresnel::schlick(Spectrum::splat(0.04), Spectrum::ONE);
+        let mut bsdf = Bsdf::new();
+        bsdf.push(Lobe::Mirror(Mirror { fresnel }), 1.0, 0.3);
+        bsdf.push(Lobe::ThinTransmission(ThinTransmission { fresnel, tint: Spectrum::ONE }), 1.0, 0.7);
+        bsdf
+    });
+
     let copper = Spectrum::from_rgb([0.2, 0.1, 0.04]);
     all.add("coated coloured", false, move || coated([0.3; 2], copper, grey));
     all.add("smooth-coated white", true, smooth_coated);
@@ -168,5 +178,23 @@ fn sheet(alpha: f32) -> Bsdf {
     let mut bsdf = Bsdf::new();
     bsdf.push(Lobe::RoughReflection(coat), 1.0, 0.3);
     bsdf.push(Lobe::RoughThin(RoughThin::new(coat, Spectrum::ONE)), 1.0, 0.7);
+    bsdf
+}
+
+/// A diffuse base that reflects the first and transmits the second, half of it each, under a coat on both sides.
+fn diffuse_sheet(alpha: Option<f32>, eta: f32, [reflected, transmitted]: [Spectrum; 2]) -> Bsdf {
+    let (f0, f90) = (Spectrum::splat(0.04), Spectrum::ONE);
+    let fresnel = Fresnel::schlick(f0, f90);
+    let micro = alpha.map(|alpha| Micro::new([alpha; 2]));
+    let f_ms = multiple_scattering(fresnel.average(), micro.map_or(0.0, |m| m.energy().mean.loss));
+    let coat = Coat { f0, f90, f_ms, energy: micro.map(|m| *m.energy()) };
+    let mut bsdf = Bsdf::new();
+    match micro {
+        None => bsdf.push(Lobe::Mirror(Mirror { fresnel }), 1.0, 0.2),
+        Some(micro) => bsdf.push(Lobe::RoughReflection(RoughReflection::with(micro, fresnel, f_ms)), 1.0, 0.2),
+    };
+    bsdf.push(Lobe::CoupledDiffuse(CoupledDiffuse::new(reflected, coat)), 0.5, 0.4);
+    let base = CoupledDiffuse::new(transmitted, coat);
+    bsdf.push(Lobe::DiffuseTransmission(DiffuseTransmission { base, eta }), 0.5, 0.4);
     bsdf
 }

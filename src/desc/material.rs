@@ -110,6 +110,8 @@ pub struct MetallicRoughness {
     pub transmission: Option<Transmission>,
     /// Anisotropy, sheen and clear coat.
     pub layers: Layers,
+    /// KHR_materials_diffuse_transmission.
+    pub diffuse_transmission: Option<DiffuseTransmission>,
 }
 
 /// KHR_materials_transmission.
@@ -118,6 +120,17 @@ pub struct Transmission {
     /// Share of the diffuse base that is transmitted instead.
     pub factor: ScalarParam,
     /// True: an infinitely thin sheet that does not bend light; false (KHR_materials_volume with thickness): refracts.
+    pub thin: bool,
+}
+
+/// KHR_materials_diffuse_transmission: what of the diffuse base is not transmitted otherwise.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DiffuseTransmission {
+    /// Share of the diffuse base that transmits instead of reflecting.
+    pub factor: ScalarParam,
+    /// Colour of what it transmits.
+    pub color: ColorParam,
+    /// True: a sheet; false (KHR_materials_volume with thickness): the surface of a volume.
     pub thin: bool,
 }
 
@@ -207,6 +220,11 @@ impl ScalarParam {
 impl MetallicRoughness {
     /// Light passes into a volume behind the surface.
     pub fn encloses(&self) -> bool {
+        self.refracts() || self.diffuse_transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0)
+    }
+
+    /// Some of that is refracted at the surface.
+    pub fn refracts(&self) -> bool {
         self.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0)
     }
 }
@@ -222,7 +240,8 @@ impl Model {
             Self::Mix(parts) => parts.iter_mut().flat_map(|(_, model)| model.colors_mut()).collect(),
             Self::MetallicRoughness(m) => {
                 let sheen = m.layers.sheen.as_mut().map(|sheen| &mut sheen.color);
-                [&mut m.base_color, &mut m.specular_color].into_iter().chain(sheen).collect()
+                let through = m.diffuse_transmission.as_mut().map(|t| &mut t.color);
+                [&mut m.base_color, &mut m.specular_color].into_iter().chain(sheen).chain(through).collect()
             }
         }
     }

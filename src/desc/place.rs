@@ -96,6 +96,10 @@ fn model(m: &mut Model, by: usize) {
             if let Some(transmission) = &mut m.transmission {
                 scalar(&mut transmission.factor, by);
             }
+            if let Some(through) = &mut m.diffuse_transmission {
+                scalar(&mut through.factor, by);
+                color(&mut through.color, by);
+            }
         }
         Model::Absorb => {}
     }

@@ -1,11 +1,13 @@
-//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular and _transmission.
+//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular, _transmission and
+//! _diffuse_transmission.
 //!
 //! The specification's mixture is kept, its energy is not: `fresnel_mix` as written reflects more than it receives at
 //! grazing angles, so the diffuse base is coupled to the coat by [`CoupledDiffuse`]. With m metalness, t transmission
 //! and c base colour, f is the sum of
 //!
 //! * GGX with Schlick's F of the mixture (1 − m) dielectric + m metal, F₀ = c for the metal;
-//! * (1 − m)(1 − t) c under the dielectric coat, diffuse;
+//! * (1 − m)(1 − t)(1 − d) c under the dielectric coat, diffuse; and of diffuse transmission d the same to the other side,
+//!   (1 − m)(1 − t) d with its own colour for c;
 //! * (1 − m) t c through the dielectric coat, unbent: thin walls; or, with a volume, the exact refracting interface in
 //!   place of (1 − m) t of the coat and the base, tinted by c.
 
@@ -13,7 +15,8 @@ use super::classic::Dielectric;
 use super::param::{self, Point};
 use super::roughness::Microsurface;
 use crate::bsdf::{
-    Coat, CoupledDiffuse, Fresnel, Lobe, Mirror, RoughReflection, RoughThin, ThinTransmission, multiple_scattering,
+    Coat, CoupledDiffuse, DiffuseTransmission, Fresnel, Lobe, Mirror, RoughReflection, RoughThin, ThinTransmission,
+    multiple_scattering,
 };
 use crate::desc;
 use crate::spectrum::Spectrum;
@@ -38,7 +41,7 @@ impl MetallicRoughness {
         let n = desc.ior;
         // An index of 0 stands for infinity.
         let f0 = if n > 0.0 { normal_reflectance(n) } else { 1.0 };
-        let interface = desc.encloses().then(|| Dielectric::new(n, roughness, desc.base_color));
+        let interface = desc.refracts().then(|| Dielectric::new(n, roughness, desc.base_color));
         Self { desc: desc.clone(), micro: Microsurface::new(roughness), f0, interface }
     }
 
@@ -50,6 +53,9 @@ impl MetallicRoughness {
             .flatten()
             .all(|p| p.texture.is_none())
             && self.micro.is_constant()
+            && d.diffuse_transmission
+                .as_ref()
+                .is_none_or(|t| t.factor.texture.is_none() && param::is_constant(&t.color))
             && param::is_constant(&d.base_color)
             && param::is_constant(&d.specular_color)
     }
@@ -89,9 +95,22 @@ impl MetallicRoughness {
             Some(micro) => push(Lobe::RoughReflection(RoughReflection::with(micro, mixed, mixed_f_ms)), 1.0),
         }
 
-        if dielectric * beneath > 0.0 && !base.is_black() {
+        if dielectric * beneath > 0.0 {
             let coat = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
-            push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), dielectric * beneath);
+            let mut reflects = 1.0;
+            if let Some(t) = &d.diffuse_transmission {
+                let (share, color) = (param::scalar(&t.factor, at), param::share(&t.color, at));
+                reflects -= share;
+                if share > 0.0 && !color.is_black() {
+                    // Beside a refracting interface the radiance behind is that of its index.
+                    let eta = if self.interface.is_some() { at.eta.unwrap_or(d.ior) } else { 1.0 };
+                    let lobe = DiffuseTransmission { base: CoupledDiffuse::new(color, coat), eta };
+                    push(Lobe::DiffuseTransmission(lobe), dielectric * beneath * share);
+                }
+            }
+            if reflects > 0.0 && !base.is_black() {
+                push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), dielectric * beneath * reflects);
+            }
         }
         if dielectric * through > 0.0 && !base.is_black() {
             let lobe = match micro {

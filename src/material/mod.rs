@@ -224,7 +224,8 @@ pub fn most_lobes(model: &desc::Model) -> usize {
         desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
         desc::Model::MetallicRoughness(m) => {
             let layers = [m.layers.sheen.is_some(), m.layers.clearcoat.is_some()];
-            2 + usize::from(m.transmission.is_some()) + layers.into_iter().map(usize::from).sum::<usize>()
+            let through = [m.transmission.is_some(), m.diffuse_transmission.is_some()];
+            2 + layers.into_iter().chain(through).map(usize::from).sum::<usize>()
         }
         _ => 1,
     }

@@ -47,6 +47,7 @@ fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
         specular_color: WHITE,
         transmission: None,
         layers: Layers::default(),
+        diffuse_transmission: None,
     }
 }
 

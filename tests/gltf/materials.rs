@@ -187,6 +187,28 @@ fn an_interior_is_what_volume_and_dispersion_say() {
 }
 
 #[test]
+fn diffuse_transmission_is_read_from_the_plain_json() {
+    let of = |extension: Value, volume: Value| {
+        let mut d = Document::material(json!({ "extensions": {
+            "KHR_materials_diffuse_transmission": extension, "KHR_materials_volume": volume } }));
+        d.texture([1, 1], &[ONE]);
+        d.read().map(|scene| pbr(&scene.materials[0]).diffuse_transmission.clone())
+    };
+    let all = json!({ "diffuseTransmissionFactor": 0.25, "diffuseTransmissionTexture": { "index": 0 },
+        "diffuseTransmissionColorFactor": [1, 0.5, 0.2], "diffuseTransmissionColorTexture": { "index": 0,
+        "extensions": { "KHR_texture_transform": { "offset": [0.5, 0] } } } });
+    let t = of(all, json!({})).unwrap().unwrap();
+    assert_eq!((t.factor.factor, t.factor.texture.unwrap().1, t.thin), (0.25, 3, true));
+    assert_eq!(t.color.factor, [1.0, 0.5, 0.2]);
+    assert_eq!(t.color.texture.unwrap().transform, Affine2::from_translation([0.5, 0.0].into()));
+    let plain = of(json!({ "diffuseTransmissionFactor": 1 }), json!({ "thicknessFactor": 1 })).unwrap().unwrap();
+    assert_eq!((plain.color.factor, plain.thin), ([1.0; 3], false));
+    assert_eq!(of(json!({}), json!({})).unwrap(), None);
+    let wrong = of(json!({ "diffuseTransmissionColorFactor": [1, 2] }), json!({})).unwrap_err();
+    assert!(wrong.place.ends_with("KHR_materials_diffuse_transmission/diffuseTransmissionColorFactor"), "{wrong}");
+}
+
+#[test]
 fn unlit_emits_its_base_colour() {
     let (scene, m) =
         read(json!({ "pbrMetallicRoughness": { "baseColorFactor": [0.1, 0.2, 0.3, 0.5] }, "alphaMode": "BLEND",

@@ -253,6 +253,23 @@ fn contradictions() {
         ("[[shape]]\ntype = 'cylinder'\nemission = 1\nto = [0, 0, 0]", "4:6", "expected a direction"),
         ("[material.a]\ntype = 'absorb'\nopacity_cutoff = 0.5", "1:11", "`opacity_cutoff` is given without `opacity`"),
         ("[material.a]\ntype = 'dielectric'\nroughness = 0.1\nalpha = 0.1", "4:9", "`roughness` is given too"),
+        (
+            "[material.a]\ntype = 'dielectric'\nabsorption = 1\nattenuation_distance = 1",
+            "3:14",
+            "`attenuation_color` or `attenuation_distance` is given too",
+        ),
+        (
+            "[material.a]\ntype = 'dielectric'\nattenuation_color = 0.5",
+            "3:21",
+            "`attenuation_color` is given without `attenuation_distance`",
+        ),
+        ("[material.a]\ntype = 'dielectric'\nior = 1.5\ncauchy = [1.5, 0.01]", "4:10", "`ior` or `abbe` is given too"),
+        ("[material.a]\ntype = 'dielectric'\ncauchy = [0.5, 0]", "3:10", "is 0.5, expected at least 1"),
+        (
+            "[material.a]\ntype = 'mix'\nparts = [{ material = 'b', weight = 1 }]\n[material.b]\ntype = 'dielectric'\npriority = 1",
+            "3:23",
+            "`b` has an absorption, priority or dispersion, which a mixture cannot honour",
+        ),
         ("[environment]\nradiance = 1\nfile = 'x.exr'", "1:1", "needs one of `radiance` and `file`"),
         (
             "[material.a]\ntype = 'mix'\nparts = [{ material = 'a', weight = 1 }]",

@@ -65,6 +65,26 @@ fn material<'a>(s: &'a Scene, name: &str) -> &'a Material {
 }
 
 #[test]
+fn interiors() {
+    let s = scene(
+        "[material.wine]\ntype = 'dielectric'\nattenuation_color = [1, 0.5, 0.25]\nattenuation_distance = 2\npriority = -1
+        [material.flint]\ntype = 'dielectric'\nabsorption = 3\nabbe = 40
+        [material.curve]\ntype = 'dielectric'\ncauchy = [1.5, 0.01]
+        [material.plastic]\ntype = 'metallic-roughness'\ntransmission = 1\nthin = false\nabsorption = [1, 2, 3]",
+    );
+    let Interior { absorption: [r, g, b], priority, dispersion } = material(&s, "wine").interior;
+    assert!(r == 0.0 && (g - 0.5 * 2f32.ln()).abs() < 1e-7 && (b - 2f32.ln()).abs() < 1e-7);
+    assert_eq!((priority, dispersion), (-1, Dispersion::None));
+    let flint = material(&s, "flint").interior;
+    assert_eq!((flint.absorption, flint.dispersion), ([3.0; 3], Dispersion::InverseAbbe(1.0 / 40.0)));
+    let curve = material(&s, "curve");
+    assert_eq!(curve.interior.dispersion, Dispersion::Cauchy([1.5, 0.01]));
+    let Model::Dielectric { ior, .. } = curve.model else { panic!() };
+    assert!((ior - 1.528_966).abs() < 1e-5, "{ior}");
+    assert_eq!(material(&s, "plastic").interior.absorption, [1.0, 2.0, 3.0]);
+}
+
+#[test]
 fn materials() {
     let s = scene(EVERYTHING);
     let white = ColorParam { vertex_color: true, ..ColorParam::constant([0.7, 0.6, 0.5]) };

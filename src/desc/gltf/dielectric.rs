@@ -61,7 +61,7 @@ impl Reader<'_> {
     }
 
     /// Whether what is transmitted passes a sheet without thickness, not into a volume.
-    fn thin(&mut self, volume: Option<&material::Volume>, place: &str) -> Result<bool, Error> {
+    pub(super) fn thin(&mut self, volume: Option<&material::Volume>, place: &str) -> Result<bool, Error> {
         let Some(volume) = volume else { return Ok(true) };
         let place = format!("{place}/extensions/KHR_materials_volume");
         let thickness = self.finite(volume.thickness_factor.0, &format!("{place}/thicknessFactor"))?;

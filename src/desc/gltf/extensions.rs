@@ -59,7 +59,7 @@ pub const EXTENSIONS: &[Extension] = &[
     row("KHR_lights_punctual", Honoured, "point, spot and directional lights"),
     row("KHR_materials_anisotropy", Honoured, "highlights that are longer one way"),
     row("KHR_materials_clearcoat", Honoured, "a clear coat over the material"),
-    row("KHR_materials_diffuse_transmission", Ignored, "light scattered through thin sheets"),
+    row("KHR_materials_diffuse_transmission", Honoured, "light scattered through thin sheets"),
     row("KHR_materials_dispersion", Honoured, "an index of refraction over wavelength"),
     row("KHR_materials_emissive_strength", Honoured, "emission above 1"),
     row("KHR_materials_ior", Honoured, "the index of refraction"),

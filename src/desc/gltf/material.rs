@@ -97,6 +97,7 @@ impl Reader<'_> {
                 sheen: self.sheen(extensions, place)?,
                 clearcoat: self.clearcoat(extensions, place)?,
             },
+            diffuse_transmission: self.diffuse_transmission(extensions, place)?,
         }));
         if m.occlusion_texture.is_some() {
             self.notes.at(place, "occlusion textures are ignored: light transport finds what is occluded");
@@ -215,6 +216,8 @@ pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
     if let Model::MetallicRoughness(p) = &m.model {
         look(p.base_color.texture);
         look(p.specular_color.texture);
+        look(p.diffuse_transmission.as_ref().and_then(|t| t.color.texture));
+        look(p.diffuse_transmission.as_ref().and_then(|t| scalar(&t.factor)));
         let scalars =
             [Some(&p.metallic), Some(&p.roughness), Some(&p.specular), p.transmission.as_ref().map(|t| &t.factor)];
         scalars.into_iter().flatten().for_each(|p| look(scalar(p)));

@@ -43,6 +43,7 @@ mod clearcoat;
 mod component;
 mod container;
 mod dielectric;
+mod diffuse_transmission;
 mod document;
 mod draco;
 mod extensions;

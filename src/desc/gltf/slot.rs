@@ -40,7 +40,6 @@ impl Slot {
     }
 
     /// One in plain JSON, at `place`.
-    #[allow(dead_code, reason = "for extensions that the `gltf` crate leaves untyped")]
     pub(super) fn of_json(value: &Value, source: Source, place: &str) -> Result<Self, Error> {
         if !value.is_object() {
             return Err(source.invalid(place, format!("is {}; expected an object with an index", kind(value))));
@@ -66,7 +65,6 @@ impl Slot {
     }
 }
 
-#[allow(dead_code, reason = "for extensions that the `gltf` crate leaves untyped")]
 impl Reader<'_> {
     /// The texture under `key` of an extension's object, which stands at `place`; `None` where the object has no such
     /// key. `srgb`: it holds colours, not numbers.

@@ -202,5 +202,6 @@ fn gloss(base_color: ColorParam, metallic: ScalarParam, roughness: ScalarParam, 
         specular_color: ColorParam::constant(specular_color),
         transmission: None,
         layers: Layers::default(),
+        diffuse_transmission: None,
     }))
 }

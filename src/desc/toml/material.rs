@@ -9,7 +9,8 @@ use super::metals;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Number, Positive, Read, mismatch, suggest, words};
 use super::schema::Defs;
 use crate::desc::{
-    Alpha, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, Roughness, ScalarParam, Sides, Transmission,
+    Alpha, DiffuseTransmission, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, Roughness,
+    ScalarParam, Sides, Transmission,
 };
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
@@ -130,7 +131,11 @@ keys! {
         specular_color: Radiance = Radiance::Constant([NonNegative(1.0); 3]),
         /// Share of the diffuse light that passes through instead in [0, 1], a number or a texture. Default: none.
         transmission: Option<Scalar>,
-        /// Whether what passes goes straight on, as through a thin sheet, or is refracted. Default true.
+        /// Share of what is left of the diffuse light that passes through diffusely in [0, 1], a number or a texture. Default: none.
+        diffuse_transmission: Option<Scalar>,
+        /// Colour of the diffuse light that passes through, each channel in [0, 1]. Default 1.
+        diffuse_transmission_color: Reflectance = Reflectance::Constant([Fraction(1.0); 3]),
+        /// Whether the surface is a thin sheet: what passes goes straight on instead of being refracted. Default true.
         thin: bool = true,
         ..interior: InteriorTable,
         ..layers: LayersTable,
@@ -325,6 +330,13 @@ impl MetallicRoughnessTable {
             None => None,
             Some(factor) => Some(Transmission { factor: factor.build(b)?, thin: self.thin }),
         };
+        let diffuse_transmission = match &self.diffuse_transmission {
+            None => None,
+            Some(factor) => {
+                let color = self.diffuse_transmission_color.build(b)?;
+                Some(DiffuseTransmission { factor: factor.build(b)?, color, thin: self.thin })
+            }
+        };
         Ok(Model::MetallicRoughness(Box::new(MetallicRoughness {
             base_color: self.base_color.build_base(b)?,
             metallic: self.metallic.build(b)?,
@@ -334,6 +346,7 @@ impl MetallicRoughnessTable {
             specular_color: self.specular_color.build(b)?,
             transmission,
             layers: self.layers.build(b)?,
+            diffuse_transmission,
         })))
     }
 }

@@ -166,6 +166,10 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
             let shares = [m.metallic.factor, m.roughness.factor, m.specular.factor, transmission];
             let names = ["metalness", "roughness", "specular", "transmission"];
             let mut all = of("base colour", &m.base_color.factor, Share);
+            if let Some(through) = &m.diffuse_transmission {
+                all.extend(of("diffuse transmission", &[through.factor.factor], Share));
+                all.extend(of("diffuse transmission colour", &through.color.factor, Share));
+            }
             all.extend(names.into_iter().zip(shares).map(|(what, x)| (what, x, Share)));
             all.push(("index of refraction", m.ior, NotNegative));
             if let Some(a) = &m.layers.anisotropy {

@@ -85,6 +85,9 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
             if let Some(sheen) = &m.layers.sheen {
                 color("sheen", &sheen.color);
             }
+            if let Some(through) = &m.diffuse_transmission {
+                color("diffuse transmission colour", &through.color);
+            }
             readings.extend(scalar("roughness", &m.roughness));
             readings.extend(scalar("metalness", &m.metallic));
             readings.extend(scalar("specular", &m.specular));
@@ -92,6 +95,7 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
             readings.extend(m.layers.sheen.and_then(|s| scalar("roughness of the sheen", &s.roughness)));
             readings.extend(m.layers.clearcoat.and_then(|c| scalar("coat", &c.factor)));
             readings.extend(m.layers.clearcoat.and_then(|c| scalar("roughness of the coat", &c.roughness)));
+            readings.extend(m.diffuse_transmission.as_ref().and_then(|t| scalar("diffuse transmission", &t.factor)));
             readings.extend(m.transmission.as_ref().and_then(|t| scalar("transmission", &t.factor)));
         }
     }

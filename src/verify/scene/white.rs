@@ -25,6 +25,9 @@ fn white(model: &Model) -> Option<Model> {
             let mut m = m.clone();
             m.base_color = WHITE;
             (m.layers.sheen, m.layers.clearcoat) = (None, None);
+            if let Some(through) = &mut m.diffuse_transmission {
+                through.color = WHITE;
+            }
             Model::MetallicRoughness(m)
         }
         Model::Mix(parts) => {

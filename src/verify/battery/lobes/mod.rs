@@ -37,7 +37,7 @@ fn any(_: &Specimen) -> bool {
 
 /// Not all of it is deltas. By name: to look at the lobe would be to make its tables, for whoever asks for a list.
 fn smooth(specimen: &Specimen) -> bool {
-    let deltas = ["mirror", "smooth gold", "smooth dielectric"];
+    let deltas = ["mirror", "smooth gold", "smooth dielectric", "thin sheet, smooth"];
     !deltas.iter().any(|name| specimen.name.starts_with(name))
 }
 
