@@ -16,7 +16,7 @@ use crate::desc::{self, TextureRef};
 use glam::{Vec2, Vec3, Vec4};
 use image::ImageTexture;
 
-/// The textures of a scene. Pixels are shared with the description, not copied, and stay 8-bit where they were.
+/// The textures of a scene. Pixels are shared with the description, not copied, and keep their 8 or 16 bits.
 #[derive(Clone, Debug, Default)]
 pub struct Textures {
     textures: Vec<Texture>,

@@ -89,6 +89,44 @@ fn transforms_per_slot() {
     assert_eq!((n.uv_set, n.transform.transform_point2(Vec2::ONE)), (0, Vec2::new(4.0, 5.0)));
 }
 
+/// Every slot has a transform and a set of its own, those inside extensions too.
+#[test]
+fn every_slot_is_transformed() {
+    let slot = |i: u32| {
+        let transform = json!({ "offset": [i, 0], "texCoord": i % 2 });
+        json!({ "index": 0, "texCoord": (i + 1) % 2, "extensions": { "KHR_texture_transform": transform } })
+    };
+    let mut d = Document::material(json!({
+        "pbrMetallicRoughness": { "baseColorTexture": slot(1), "metallicRoughnessTexture": slot(2) },
+        "normalTexture": slot(3),
+        "emissiveTexture": slot(4),
+        "emissiveFactor": [1, 1, 1],
+        "extensions": {
+            "KHR_materials_specular": { "specularTexture": slot(5), "specularColorTexture": slot(6) },
+            "KHR_materials_transmission": { "transmissionFactor": 1, "transmissionTexture": slot(7) },
+        },
+    }));
+    d.texture([1, 1], &[RED]);
+    d.attribute("TEXCOORD_1", "VEC2", &[[0.0; 2]; 3]);
+    let scene = d.read().unwrap();
+    let m = &scene.materials[0];
+    let Model::MetallicRoughness(p) = &m.model else { panic!("{m:?}") };
+    let found = [
+        p.base_color.texture,
+        p.roughness.texture.map(|t| t.0),
+        m.normal_map.map(|n| n.texture),
+        m.emission.and_then(|e| e.radiance.texture),
+        p.specular.texture.map(|t| t.0),
+        p.specular_color.texture,
+        p.transmission.as_ref().and_then(|t| t.factor.texture).map(|t| t.0),
+    ];
+    for (i, t) in (1u8..).zip(found) {
+        let t = t.unwrap_or_else(|| panic!("no texture in slot {i}"));
+        assert_eq!((t.transform.translation.x, t.uv_set), (f32::from(i), usize::from(i % 2)), "slot {i}");
+    }
+    assert!(scene.notes.is_empty(), "{:?}", scene.notes);
+}
+
 /// Any two sets reach the mesh, each where its textures look.
 #[test]
 fn two_uv_sets_of_any_number() {

@@ -34,13 +34,13 @@ one_of! {
 keys! {
     /// Look-up in an image. (0, 0) is the corner of the first pixel of the upper row; v grows downwards.
     struct ImageTexture {
-        /// The image: PNG, JPEG, Radiance HDR or OpenEXR, below the scene's folder.
+        /// The image: PNG, JPEG, WebP, KTX2 with Basis Universal, Radiance HDR or OpenEXR, below the scene's folder.
         file: At<String>,
         /// Outside the unit square: "repeat", "mirror" or "clamp", for both axes or one each. Default "repeat".
         wrap: Wraps = Wraps([Wrap::Repeat; 2]),
         /// Between pixels: "bilinear" or "nearest". Default "bilinear".
         filter: Lookup = Lookup::Bilinear,
-        /// Whether RGB is stored with the sRGB curve. Default: of 8-bit images, where they are used as a colour.
+        /// Whether RGB is stored with the sRGB curve. Default: of images of 8 or 16 bits, where they are used as a colour.
         srgb: Option<bool>,
     }
 }
