@@ -10,6 +10,8 @@ mod files;
 mod geometry;
 #[path = "gltf/hostile.rs"]
 mod hostile;
+#[path = "gltf/lights.rs"]
+mod lights;
 #[path = "gltf/materials.rs"]
 mod materials;
 #[path = "gltf/mutations.rs"]
