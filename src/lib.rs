@@ -46,7 +46,7 @@
 //! | 2 | [`film`] | sums per pixel, errors, EXR and PNG |
 //! | 3 | [`material`] | parameters and textures at a hit → lobes |
 //! | 3 | [`bvh`] | nearest hit? occluded? |
-//! | 3 | [`light`] | area, environment, point, spot, directional; choosing one |
+//! | 3 | [`light`] | area, environment, sun, point, spot, measured, directional; choosing one of thousands |
 //! | 3 | [`camera`] | film point → ray, world point → film point |
 //! | 4 | [`scene`] | desc → what is traced |
 //! | 5 | [`integrator`] | raycast, local, whitted, path |

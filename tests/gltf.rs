@@ -16,6 +16,8 @@ mod geometry;
 mod hostile;
 #[path = "gltf/layers.rs"]
 mod layers;
+#[path = "gltf/lights.rs"]
+mod lights;
 #[path = "gltf/materials.rs"]
 mod materials;
 #[path = "gltf/mutations.rs"]

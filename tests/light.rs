@@ -4,7 +4,7 @@
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec4};
-use radianza::light::{Environment, Light, Lights, QuadricLight, Receiver, TriangleLight};
+use radianza::light::{Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
@@ -121,4 +121,38 @@ fn environment_pixels_are_decoded() {
     let [r, g, b] = le(desc::Pixels::Rgba8(vec![[255, 0, 188, 9]]));
     assert!((r, g) == (2.0, 0.0) && (b - 2.0 * 0.502_886_5).abs() < 1e-5, "{b}");
     assert_eq!(le(desc::Pixels::Rgba32F(vec![[f32::NAN, f32::INFINITY, -1.0, 1.0]])), [0.0; 3]);
+}
+
+/// A computed sky and its sun: the irradiance from samples of both is the sum over the image's texels and E⊥ sin(elevation).
+#[test]
+fn the_sky_and_its_sun_light_the_ground_together() {
+    let text = "[environment]\ntype = 'sky'\nelevation = 35\nazimuth = 90\nstrength = 0.01\n";
+    let scene = desc::toml::parse(text, std::path::Path::new("sky.toml")).expect("a scene");
+    let [desc::Light::Sun { direction, irradiance, .. }] = scene.lights[..] else { panic!("{:?}", scene.lights) };
+    // In the east, which is +x.
+    assert!((direction.y + 35f32.to_radians().sin()).abs() < 1e-5 && direction.x < -0.8 && direction.z.abs() < 1e-5);
+    let desc::Pixels::Rgba32F(pixels) = &scene.images[0].pixels else { panic!() };
+    let [width, height] = scene.images[0].size.map(|n| n as usize);
+    let edge = |row: usize| (std::f64::consts::PI * row as f64 / height as f64).sin().powi(2);
+    let sky = |(i, p): (usize, &[f32; 4])| {
+        let row = i / width;
+        let cosine = 0.5 * (edge(row + 1) - edge(row)) * std::f64::consts::TAU / width as f64;
+        0.01 * f64::from(p[1]) * cosine
+    };
+    let sky: f64 = pixels.iter().enumerate().take(width * height / 2).map(sky).sum();
+    let exact = sky + f64::from(irradiance[1] * -direction.y);
+
+    let compiled = radianza::scene::Scene::compile(&scene).expect("compiles");
+    let receiver = Receiver { p: Vec3::ZERO, facing: Facing::Half(Vec3::Y) };
+    let (mut rng, mut seen) = (Pcg64Mcg::new(4), radianza::stats::Moments::default());
+    for _ in 0..200_000 {
+        let u = [rng.random(), rng.random()];
+        let sample = compiled.lights.sample(&receiver, rng.random(), u, &compiled.textures);
+        let e = sample.map_or(0.0, |(_, s)| {
+            let (Pdf::SolidAngle(p) | Pdf::Discrete(p)) = s.pdf;
+            f64::from(s.le.to_rgb()[1] * s.wi.y.max(0.0) / p)
+        });
+        seen.push(e);
+    }
+    assert!(seen.z(exact).abs() < 4.5 && seen.standard_error() < 0.01 * exact, "{} is not {exact}", seen.mean());
 }

@@ -4,6 +4,8 @@
 mod broken;
 #[path = "readers/images.rs"]
 mod images;
+#[path = "readers/lights.rs"]
+mod lights;
 #[path = "readers/models.rs"]
 mod models;
 #[path = "readers/schema.rs"]

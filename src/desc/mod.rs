@@ -22,6 +22,7 @@ pub mod ply;
 pub mod primitives;
 mod settings;
 mod shape;
+pub mod sky;
 pub mod toml;
 
 pub use camera::{Camera, Fov, Lens, Projection};
@@ -128,6 +129,15 @@ pub enum Light {
         direction: Vec3,
         /// Linear RGB irradiance on a surface that faces it \[W/m²\].
         irradiance: [f32; 3],
+    },
+    /// A disk at infinity.
+    Sun {
+        /// Direction of travel of the light from its middle, unit.
+        direction: Vec3,
+        /// Linear RGB irradiance on a surface that faces it \[W/m²\].
+        irradiance: [f32; 3],
+        /// Angular diameter \[rad\], between 0 and π.
+        diameter: f32,
     },
 }
 

@@ -56,6 +56,9 @@ pub(crate) fn moved(light: &Light, m: Mat4) -> Light {
             Light::Profile { position: m.transform_point3(position), to_world, intensity, profile }
         }
         Light::Directional { direction, irradiance } => Light::Directional { direction: turn(direction), irradiance },
+        Light::Sun { direction, irradiance, diameter } => {
+            Light::Sun { direction: turn(direction), irradiance, diameter }
+        }
     }
 }
 

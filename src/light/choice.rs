@@ -102,7 +102,7 @@ impl Many {
         let area = f64::from(sqr(radius));
         let scale = area / bounds.iter().flatten().map(|b| b.intensity).sum::<f64>();
         let irradiance = |(light, &flux): (&Light, &f64)| match light {
-            Light::Directional(_) => flux / (f64::from(PI) * area),
+            Light::Directional(_) | Light::Sun(_) => flux / (f64::from(PI) * area),
             Light::Environment(_) => flux / (4.0 * f64::from(PI) * area),
             Light::Triangle(_) | Light::Quadric(_) | Light::Point(_) | Light::Spot(_) | Light::Profile(_) => 0.0,
         };

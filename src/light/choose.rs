@@ -37,7 +37,7 @@ impl Lights {
         let means: Vec<OnceCell<Vec4>> = vec![OnceCell::new(); textures.len()];
         let mean = |texture: usize| *means[texture].get_or_init(|| textures.mean(texture));
         let powers: Vec<Spectrum> = lights.iter().map(|light| light.power(radius, &mean)).collect();
-        let is_environment = |i: &u32| matches!(lights[*i as usize], Light::Environment(_));
+        let is_environment = |i: &u32| lights[*i as usize].surrounds();
         let environments = (0..lights.len() as u32).filter(is_environment).collect();
         // A power that overflowed is a great one.
         let weight = |p: &Spectrum| {
@@ -65,8 +65,8 @@ impl Lights {
             Pdf::SolidAngle(pdf) => Pdf::SolidAngle(pdf * choice),
             Pdf::Discrete(probability) => Pdf::Discrete(probability * choice),
         };
-        // Several environments are one: a direction meets all of them.
-        if self.environments.len() > 1 && matches!(light, Light::Environment(_)) {
+        // Several environments, or a sun in the sky, are one: a direction meets all of them.
+        if self.environments.len() > 1 && light.surrounds() {
             sample.le = self.environment_le(sample.wi);
             sample.pdf = Pdf::SolidAngle(self.environment_pdf(receiver, sample.wi));
         }
@@ -102,13 +102,18 @@ impl Lights {
     /// Radiance that arrives along a ray that met nothing, from the unit vector `wi`.
     #[inline]
     pub fn environment_le(&self, wi: Vec3) -> Spectrum {
-        self.environments().map(|(_, environment)| environment.le(wi)).sum()
+        self.environments().map(|(_, light)| light.le_from(wi)).sum()
     }
 
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws `wi` from the environments.
     #[inline]
     pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3) -> f32 {
-        self.environments().map(|(i, environment)| self.choice(i, receiver) * environment.pdf(wi)).sum()
+        // What a sun's disk does not cover need not be asked for its choice.
+        let density = |(i, light): (u32, &Light)| match light.pdf_from(wi) {
+            0.0 => 0.0,
+            pdf => self.choice(i, receiver) * pdf,
+        };
+        self.environments().map(density).sum()
     }
 
     /// Whether there is nothing to sample.
@@ -132,10 +137,7 @@ impl Lights {
     }
 
     #[inline]
-    fn environments(&self) -> impl Iterator<Item = (u32, &super::Environment)> {
-        self.environments.iter().filter_map(|&i| match &self.lights[i as usize] {
-            Light::Environment(environment) => Some((i, &**environment)),
-            _ => None,
-        })
+    fn environments(&self) -> impl Iterator<Item = (u32, &Light)> {
+        self.environments.iter().map(|&i| (i, &self.lights[i as usize]))
     }
 }

@@ -20,6 +20,7 @@ mod receiver;
 mod specimens;
 mod spherical_triangle;
 mod spot;
+mod sun;
 pub mod tree;
 mod triangle;
 
@@ -36,6 +37,7 @@ pub use receiver::{Facing, Receiver};
 pub use specimens::{Specimen, specimens};
 pub use spherical_triangle::SphericalTriangle;
 pub use spot::SpotLight;
+pub use sun::SunLight;
 pub use triangle::TriangleLight;
 
 use crate::bsdf::Pdf;
@@ -77,6 +79,8 @@ pub enum Light {
     Profile(Box<ProfileLight>),
     /// Parallel light.
     Directional(DirectionalLight),
+    /// A disk at infinity.
+    Sun(Box<SunLight>),
     /// Light from all around, at infinity.
     Environment(Box<Environment>),
 }
@@ -97,6 +101,9 @@ impl Light {
             desc::Light::Directional { direction, irradiance } => {
                 Self::Directional(DirectionalLight::new(direction, irradiance))
             }
+            desc::Light::Sun { direction, irradiance, diameter } => {
+                Self::Sun(Box::new(SunLight::new(direction, irradiance, diameter)))
+            }
         }
     }
 
@@ -110,6 +117,7 @@ impl Light {
             Self::Spot(light) => light.sample(p),
             Self::Profile(light) => light.sample(p),
             Self::Directional(light) => light.sample(),
+            Self::Sun(light) => light.sample(u),
             Self::Environment(light) => light.sample(u),
         }
     }
@@ -121,7 +129,12 @@ impl Light {
         match self {
             Self::Triangle(light) => light.pdf(reference, p, ng),
             Self::Quadric(light) => light.pdf(reference, p, ng),
-            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => 0.0,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Profile(_)
+            | Self::Directional(_)
+            | Self::Sun(_)
+            | Self::Environment(_) => 0.0,
         }
     }
 
@@ -132,9 +145,12 @@ impl Light {
         match self {
             Self::Triangle(light) => light.emitter.le(uv, color, cos, textures),
             Self::Quadric(light) => light.emitter.le(uv, color, cos, textures),
-            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => {
-                Spectrum::ZERO
-            }
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Profile(_)
+            | Self::Directional(_)
+            | Self::Sun(_)
+            | Self::Environment(_) => Spectrum::ZERO,
         }
     }
 
@@ -148,6 +164,7 @@ impl Light {
             Self::Spot(light) => light.power(),
             Self::Profile(light) => light.power(),
             Self::Directional(light) => light.power(scene_radius),
+            Self::Sun(light) => light.power(scene_radius),
             Self::Environment(light) => light.power(scene_radius),
         }
     }
@@ -160,7 +177,7 @@ impl Light {
             Self::Point(light) => Some(light.bounds(flux)),
             Self::Spot(light) => Some(light.bounds()),
             Self::Profile(light) => Some(light.bounds(flux)),
-            Self::Directional(_) | Self::Environment(_) => None,
+            Self::Directional(_) | Self::Sun(_) | Self::Environment(_) => None,
         }
     }
 
@@ -173,8 +190,39 @@ impl Light {
                 let t = light.shape.intersect(ray)?;
                 Some((t, light.shape.surface(ray, t)))
             }
-            Self::Point(_) | Self::Spot(_) | Self::Profile(_) | Self::Directional(_) | Self::Environment(_) => None,
+            Self::Point(_)
+            | Self::Spot(_)
+            | Self::Profile(_)
+            | Self::Directional(_)
+            | Self::Sun(_)
+            | Self::Environment(_) => None,
         }
+    }
+
+    /// Radiance from infinity along the unit vector `wi`; 0 of other lights.
+    #[inline]
+    pub fn le_from(&self, wi: Vec3) -> Spectrum {
+        match self {
+            Self::Environment(light) => light.le(wi),
+            Self::Sun(light) => light.le(wi),
+            _ => Spectrum::ZERO,
+        }
+    }
+
+    /// Density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity; 0 for other lights.
+    #[inline]
+    pub fn pdf_from(&self, wi: Vec3) -> f32 {
+        match self {
+            Self::Environment(light) => light.pdf(wi),
+            Self::Sun(light) => light.pdf(wi),
+            _ => 0.0,
+        }
+    }
+
+    /// Whether a ray that leaves the scene may meet it.
+    #[inline]
+    pub fn surrounds(&self) -> bool {
+        matches!(self, Self::Environment(_) | Self::Sun(_))
     }
 
     /// True where light comes from one direction only, which no other sampling can meet.

@@ -153,6 +153,7 @@ fn punctual() -> Vec<Specimen> {
     let spot =
         desc::Light::Spot { position, direction: Vec3::NEG_Z, intensity, inner: 0.3, outer: 0.6, range: f32::INFINITY };
     let sun = desc::Light::Directional { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: intensity };
+    let disk = desc::Light::Sun { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: intensity, diameter: 0.01 };
     let specimen = |name, light: &desc::Light, points| Specimen { name, light: Light::from_desc(light), points };
     vec![
         specimen(
@@ -170,5 +171,6 @@ fn punctual() -> Vec<Specimen> {
             ],
         ),
         specimen("directional", &sun, vec![("anywhere", Vec3::ZERO)]),
+        specimen("sun", &disk, vec![("anywhere", Vec3::ZERO)]),
     ]
 }

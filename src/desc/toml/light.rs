@@ -4,8 +4,10 @@ use super::build::Builder;
 use super::color::Grey;
 use super::keys::{keys, one_of};
 use super::place::{Rotation, unit};
-use super::read::{At, Fault, HalfAngle, Node, NonNegative, Number, Read, mismatch};
+use super::read::{At, Fault, HalfAngle, Node, NonNegative, Number, Read, ViewAngle, mismatch};
 use super::schema::Defs;
+use super::sky::ClearSky;
+use crate::desc::sky::SUN_DIAMETER;
 use crate::desc::{Environment, Light, ies};
 use ::toml::de::DeValue;
 use glam::{Mat3, Quat, Vec3};
@@ -18,6 +20,7 @@ one_of! {
         "point" => PointLight,
         "spot" => SpotLight,
         "directional" => DirectionalLight,
+        "sun" => SunLight,
         "ies" => IesLight,
     } default None
 }
@@ -59,6 +62,18 @@ keys! {
         direction: At<Vec3>,
         /// Irradiance in W/m² on a surface that faces the light, a number or [r, g, b].
         irradiance: Grey<NonNegative>,
+    }
+}
+
+keys! {
+    /// A disk at infinity.
+    struct SunLight {
+        /// Direction of travel [x, y, z] of the light from its middle.
+        direction: At<Vec3>,
+        /// Irradiance in W/m² on a surface that faces the light, a number or [r, g, b].
+        irradiance: Grey<NonNegative>,
+        /// Angular diameter in degrees, between 0 and 180. Default 0.533.
+        diameter: ViewAngle = ViewAngle(SUN_DIAMETER),
     }
 }
 
@@ -111,6 +126,11 @@ impl LightTable {
             Self::DirectionalLight(d) => {
                 Ok(Light::Directional { direction: unit(&d.direction)?, irradiance: rgb(&d.irradiance) })
             }
+            Self::SunLight(s) => Ok(Light::Sun {
+                direction: unit(&s.direction)?,
+                irradiance: rgb(&s.irradiance),
+                diameter: s.diameter.0.to_radians(),
+            }),
             Self::IesLight(l) => {
                 let z = -aim(&l.position, &l.direction, l.target)?;
                 let across = if z.x.abs() > 0.999 { Vec3::Z } else { Vec3::X };
@@ -132,16 +152,31 @@ fn aim(position: &At<Vec3>, direction: &Option<At<Vec3>>, target: Option<Vec3>) 
 }
 
 keys! {
-    /// Light from infinity all around: uniform, or an image.
+    /// Light from infinity all around.
     struct EnvironmentTable {
+        /// Factor on the image, the sky or the radiance, a number or [r, g, b]. Default 1.
+        strength: Grey<NonNegative> = Grey([NonNegative(1.0); 3]),
+        /// Rotation: degrees counter-clockwise about the y axis as seen from above, or { axis = [x, y, z], angle = degrees }. Default 0.
+        rotation: Turn = Turn(None, Number(0.0)),
+        ..kind: EnvironmentKind,
+    }
+}
+
+one_of! {
+    /// Light from infinity all around: given, or computed.
+    enum EnvironmentKind {
+        "plain" => PlainEnvironment,
+        "sky" => ClearSky,
+    } default Some("plain")
+}
+
+keys! {
+    /// Uniform, or an image.
+    struct PlainEnvironment {
         /// Radiance in W/(sr m²), a number or [r, g, b].
         radiance: Option<At<Grey<NonNegative>>>,
         /// Equirectangular image (.exr, .hdr, .png, .jpg) in place of the radiance. Its middle lies towards −z, its upper edge towards +y, +x to the right of the middle.
         file: Option<At<String>>,
-        /// Factor on the image or the radiance, a number or [r, g, b]. Default 1.
-        strength: Grey<NonNegative> = Grey([NonNegative(1.0); 3]),
-        /// Rotation: degrees counter-clockwise about the y axis as seen from above, or { axis = [x, y, z], angle = degrees }. Default 0.
-        rotation: Turn = Turn(None, Number(0.0)),
     }
 }
 
@@ -171,15 +206,20 @@ impl EnvironmentTable {
     /// The environment, its image decoded.
     pub(super) fn build(&self, at: &std::ops::Range<usize>, b: &mut Builder<'_>) -> Result<Environment, Fault> {
         let strength = self.strength.0.map(|x| x.0);
-        let (radiance, image) = match (&self.radiance, &self.file) {
-            (Some(r), None) => ([0, 1, 2].map(|i| r.value.0[i].0 * strength[i]), None),
-            (None, Some(file)) => (strength, Some(b.environment_image(file)?)),
-            _ => return Err(Fault::new(at, "`environment` needs one of `radiance` and `file`")),
-        };
         let rotation = match &self.rotation {
             Turn(Some(rotation), _) => rotation.quat()?,
             Turn(None, angle) => Quat::from_rotation_y(angle.0.to_radians()),
         };
-        Ok(Environment { radiance, image, to_world: Mat3::from_quat(rotation) })
+        let to_world = Mat3::from_quat(rotation);
+        let plain = match &self.kind {
+            EnvironmentKind::PlainEnvironment(plain) => plain,
+            EnvironmentKind::ClearSky(sky) => return sky.build(at, strength, to_world, b),
+        };
+        let (radiance, image) = match (&plain.radiance, &plain.file) {
+            (Some(r), None) => ([0, 1, 2].map(|i| r.value.0[i].0 * strength[i]), None),
+            (None, Some(file)) => (strength, Some(b.environment_image(file)?)),
+            _ => return Err(Fault::new(at, "`environment` needs one of `radiance` and `file`")),
+        };
+        Ok(Environment { radiance, image, to_world })
     }
 }

@@ -42,7 +42,7 @@
 //! ```
 //!
 //! Every key is declared once, in the file of its table: `scene` (the whole), `camera`, `material`, `texture`, `color`,
-//! `shape`, `place` (translate, rotate, scale, matrix), `light` (and environment). The declarations read the tables,
+//! `shape`, `place` (translate, rotate, scale, matrix), `light` (and environment; `sky`). The declarations read the tables,
 //! refuse unknown keys, and become the JSON Schema of [`schema`], which holds every key with its unit and default.
 //! Lengths are metres, angles degrees, colours linear RGB (BT.709). A hyphen in a key is read as an underscore. Files
 //! are looked for below the scene's folder and nowhere else.
@@ -62,6 +62,7 @@ mod read;
 mod scene;
 mod schema;
 mod shape;
+mod sky;
 mod texture;
 
 pub use schema::schema;

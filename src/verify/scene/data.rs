@@ -201,7 +201,9 @@ fn light(index: usize, light: &Light, faults: &mut Faults) {
         Light::Point { position, intensity, .. } => (intensity, position),
         Light::Spot { position, intensity, .. } => (intensity, position),
         Light::Profile { position, intensity, .. } => (intensity, position),
-        Light::Directional { direction, irradiance } => (irradiance, direction),
+        Light::Directional { direction, irradiance } | Light::Sun { direction, irradiance, .. } => {
+            (irradiance, direction)
+        }
     };
     emission(&format!("light {index}"), *rgb, faults);
     if !place.is_finite() {

@@ -69,8 +69,8 @@ impl Placed {
     /// Density over solid angle with which a sample may arrive from direction `wi`: summed over all points of the light
     /// that lie there, one behind the other, and that emit towards `p`.
     fn density(&self, wi: Vec3) -> f64 {
-        if let Light::Environment(environment) = &self.light {
-            return f64::from(environment.pdf(wi));
+        if self.light.surrounds() {
+            return f64::from(self.light.pdf_from(wi));
         }
         let (mut sum, mut ray) = (0.0, Ray::new(self.p, wi));
         // Quadrics and triangles meet a ray twice at most.
@@ -143,10 +143,10 @@ impl Placed {
 
     /// A sample beside the hit that its direction leads to; `None` where rounding at an edge or rim leads elsewhere.
     fn compare(&self, s: &LightSample, pdf: f32) -> Option<Compared> {
-        if let Light::Environment(environment) = &self.light {
-            // At a texel's edge rounding may lead to its neighbour.
-            let deviation = f64::from(environment.pdf(s.wi) / pdf - 1.0).abs();
-            return (environment.le(s.wi) == s.le && deviation < 1e-6).then_some(Compared {
+        if self.light.surrounds() {
+            // At a texel's or a disk's edge rounding may lead beyond it.
+            let deviation = f64::from(self.light.pdf_from(s.wi) / pdf - 1.0).abs();
+            return (self.light.le_from(s.wi) == s.le && deviation < 1e-6).then_some(Compared {
                 deviation,
                 promised: true,
                 unshadowed: true,

@@ -48,8 +48,8 @@ impl Lit<'_> {
     /// Radiance that up to `count` layers of the light emit along `wi`, one behind the other and none hiding the next:
     /// what samples of the light stand for before shadow rays.
     fn layers(&self, wi: Vec3, count: u32) -> f64 {
-        if let Light::Environment(environment) = self.light {
-            return f64::from(environment.le(wi).0.x);
+        if self.light.surrounds() {
+            return f64::from(self.light.le_from(wi).0.x);
         }
         let (mut sum, mut ray) = (0.0, Ray::new(self.p, wi));
         for _ in 0..count {

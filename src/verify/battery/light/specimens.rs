@@ -15,7 +15,7 @@ use glam::Vec3;
 /// The row that a light belongs to.
 fn topic(light: &Light) -> Topic {
     match light {
-        Light::Point(_) | Light::Spot(_) | Light::Profile(_) | Light::Directional(_) => L1,
+        Light::Point(_) | Light::Spot(_) | Light::Profile(_) | Light::Directional(_) | Light::Sun(_) => L1,
         Light::Triangle(_) => L2,
         Light::Quadric(light) => match light.shape.quadric {
             Quadric::Sphere { .. } => L4,
