@@ -61,6 +61,20 @@ fn a_time_and_a_variant_reach_scene_and_header() {
 }
 
 #[test]
+fn they_hold_for_the_files_that_a_scene_places() {
+    let folder = folder();
+    turning(folder.path());
+    triangle(folder.path(), "still.gltf", "");
+    let shape = |file: &str| format!("[[shape]]\ntype = \"file\"\nfile = \"{file}\"\n");
+    fs::write(folder.path().join("both.toml"), shape("turn.gltf") + &shape("still.gltf")).unwrap();
+    let (code, out, err) = radianza(folder.path(), &["info", "both.toml", "--at", "0.5", "--variant", "day"]);
+    assert!(code == 0 && out.contains("bright") && !out.contains("dark"), "{out}{err}");
+    assert!(out.contains("time       0.5 s, of animations of 1 s") && out.contains("variant    `day`"), "{out}");
+    let (code, _, err) = radianza(folder.path(), &["info", "both.toml", "--variant", "dusk"]);
+    assert!(code == 2 && err.contains("it has `day`, `night`"), "{err}");
+}
+
+#[test]
 fn what_a_scene_lacks_is_2() {
     let folder = folder();
     turning(folder.path());

@@ -263,6 +263,34 @@ fn few_bytes_cannot_ask_for_much_memory() {
 }
 
 #[test]
+fn few_bytes_cannot_ask_for_many_names_or_weights() {
+    // A long name for each of many instances.
+    let mut d = Document::triangle();
+    let places = d.accessor(F32, "VEC3", 5000, &vec![0; 60_000]);
+    let instances = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": places } } });
+    d.set("/nodes/0", json!({ "mesh": 0, "extensions": instances, "name": "x".repeat(1 << 20) }));
+    d.fails("/nodes/0", "too many for a file of this size");
+
+    // Many nodes that share a long list of weights, and many channels that give each of them its own.
+    let (nodes, weights) = (4000, 100_000);
+    let mut d = Document::triangle();
+    d.set("/meshes/0/weights", json!(vec![0; weights]));
+    d.set("/nodes", json!(vec![json!({ "mesh": 0 }); nodes]));
+    d.set("/scenes/0/nodes", json!((0..nodes).collect::<Vec<_>>()));
+    let e = d.read().unwrap_err();
+    assert!(e.message.contains("too many for a file of this size"), "{e}");
+    let (times, values) = (d.accessor(F32, "SCALAR", 1, &[0; 4]), d.accessor(F32, "SCALAR", 1, &[0; 4]));
+    let channel = |node: usize| {
+        let pointer = json!({ "KHR_animation_pointer": { "pointer": format!("/nodes/{node}/weights/0") } });
+        json!({ "sampler": 0, "target": { "path": "pointer", "extensions": pointer } })
+    };
+    let channels: Vec<Value> = (0..nodes).map(channel).collect();
+    d.set("/animations", json!([{ "channels": channels, "samplers": [{ "input": times, "output": values }] }]));
+    let e = super::pose::at(&d, 0.0).unwrap_err();
+    assert!(e.place.starts_with("/animations/0/channels/") && e.message.contains("too many for a file"), "{e}");
+}
+
+#[test]
 fn nodes_that_make_no_tree() {
     Document::triangle()
         .set("/nodes/0/children", json!([0]))

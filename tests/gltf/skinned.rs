@@ -194,6 +194,7 @@ fn instances_that_are_wrong() {
     d.clone().set(&format!("{place}/SCALE"), json!(77)).fails(&format!("{place}/SCALE"), "accessor 77");
     d.clone().set(&format!("{place}/SCALE"), json!(zero)).fails(&format!("{place}/SCALE"), "expected VEC3");
     d.clone().set(place, json!({})).fails(place, "has none of");
+    d.clone().set("/nodes/0/name", json!("x".repeat(1 << 20))).read().unwrap();
     d.set(&format!("{place}/_ID"), json!(0));
     assert!(noted(&d.read().unwrap(), "that do not place them"));
 }

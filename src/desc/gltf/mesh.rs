@@ -118,6 +118,7 @@ impl Reader<'_> {
         let others = primitive.extensions.as_ref().map(|e| &e.others);
         let stream = self.source.extension::<draco::Stream>(others, draco::NAME, place)?;
         let mode = if stream.is_some() { Mode::Triangles } else { mode };
+        self.budget.decode(self.source, place, pose.weights.len(), size_of::<Displacement>())?;
         let ingredients = Ingredients {
             mode: mode.as_gl_enum(),
             indices: primitive.indices.map(|i| i.value()),

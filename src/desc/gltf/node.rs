@@ -139,6 +139,7 @@ impl Reader<'_> {
             let message = format!("element {i} is {}; expected finite numbers", weights[i]);
             return Err(self.source.invalid(format!("{place}/weights"), message));
         }
+        self.budget.decode(self.source, place, weights.len(), size_of::<u32>())?;
         let moved = weights.iter().any(|w| *w != 0.0);
         let bits = || weights.iter().map(|w| w.to_bits()).collect();
         let pose = Pose { weights: if moved { bits() } else { Vec::new() }, skin: node.skin.map(|s| s.value()) };
@@ -159,7 +160,7 @@ impl Reader<'_> {
             if part.skinned && instances.is_some() {
                 self.notes.at(place, "meshes on skins are not instanced");
             }
-            self.budget.decode(self.source, place, list.len(), size_of::<Object>() + 64)?;
+            self.budget.decode(self.source, place, list.len(), size_of::<Object>() + 64 + name.len())?;
             for instance in list {
                 let to_world = if part.skinned { *instance } else { *world * *instance }.as_mat4();
                 if !to_world.is_finite() {

@@ -88,6 +88,7 @@ pub(super) fn pose(
             let sampler = source.get(&samplers, channel.sampler, "sampler", &format!("{at}/sampler"))?;
             let from = format!("{place}/samplers/{}", channel.sampler);
             let numbers = sample(sampler, property.kind, time, accessors, &from)?;
+            accessors.budget.decode(source, &at, property.copies(document), size_of::<Value>())?;
             match property.write(document, &numbers) {
                 Ok(()) if written.insert(property.pointer) => {}
                 Ok(()) => notes.at(&at, "what more than one channel animates has the value of the last one"),

@@ -103,6 +103,16 @@ impl Property {
         }
     }
 
+    /// The node one of whose weights this is.
+    fn node_of_weight(&self) -> Option<&str> {
+        self.pointer.rsplit_once('/')?.0.strip_suffix("/weights").filter(|node| node.starts_with("/nodes/"))
+    }
+
+    /// How many weights [`Property::write`] copies from a mesh.
+    pub(super) fn copies(&self, document: &Value) -> usize {
+        self.node_of_weight().and_then(|node| inherited(document, node)).map_or(0, |(count, _)| count)
+    }
+
     /// Gives it a value. Only what stands in an object or list of the document has one.
     pub(super) fn write(&self, document: &mut Value, numbers: &[f64]) -> Result<(), Unfit> {
         if let Some(x) = numbers.iter().find(|x| !x.is_finite()) {
@@ -115,8 +125,12 @@ impl Property {
         };
         let absent = || Unfit::Ignored(format!("`{}` is not in the document and cannot be animated", self.pointer));
         let (parent, key) = self.pointer.rsplit_once('/').ok_or_else(absent)?;
-        if let Some(node) = parent.strip_suffix("/weights") {
-            own_weights(document, node);
+        // One weight of a node that inherits them: the others become its own.
+        if let Some((node, (count, stated))) = self.node_of_weight().and_then(|n| Some((n, inherited(document, n)?))) {
+            let weights = stated.map_or_else(|| json!(vec![0.0; count]), |list| json!(list));
+            if let Some(Value::Object(node)) = document.pointer_mut(node) {
+                node.insert("weights".into(), weights);
+            }
         }
         match document.pointer_mut(parent) {
             Some(Value::Object(object)) => {
@@ -131,17 +145,13 @@ impl Property {
     }
 }
 
-/// Gives a node that has none the weights of its mesh, or zeros, so that one of them can be animated.
-fn own_weights(document: &mut Value, node: &str) {
-    let mesh = || {
-        let mesh = document.pointer(node)?.get("mesh")?.as_u64()?;
-        document.pointer(&format!("/meshes/{mesh}"))
-    };
-    let targets = |mesh: &Value| mesh.pointer("/primitives/0/targets")?.as_array().map(|t| json!(vec![0.0; t.len()]));
-    let weights = mesh().and_then(|mesh| mesh.get("weights").cloned().or_else(|| targets(mesh)));
-    if let (Some(Value::Object(node)), Some(weights)) = (document.pointer_mut(node), weights) {
-        node.entry("weights").or_insert(weights);
-    }
+/// The weights that a node inherits: their number, and the list of its mesh, if that has one.
+fn inherited<'d>(document: &'d Value, node: &str) -> Option<(usize, Option<&'d Vec<Value>>)> {
+    let node = document.pointer(node).filter(|node| node.get("weights").is_none())?;
+    let mesh = document.get("meshes")?.get(usize::try_from(node.get("mesh")?.as_u64()?).ok()?)?;
+    let stated = mesh.get("weights").and_then(Value::as_array);
+    let targets = || mesh.pointer("/primitives/0/targets").and_then(Value::as_array).map(Vec::len);
+    Some((stated.map(Vec::len).or_else(targets)?, stated))
 }
 
 /// Whether a pointer has the segments of a pattern.
