@@ -1,15 +1,13 @@
 //! Materials (glTF 2.0, section 3.9).
 
 use super::Reader;
-use super::texture::Slot;
+use super::slot::Slot;
 use crate::desc::{
     Alpha, ColorParam, Emission, Error, Material, MetallicRoughness, Model, NormalMap, ScalarParam, Sides, TextureRef,
 };
 use gltf::json;
-use json::extensions::texture::TextureTransform;
 use json::material::AlphaMode;
 use json::validation::Checked;
-use serde::Deserialize;
 
 /// Channels of textures.
 const R: usize = 0;
@@ -122,13 +120,8 @@ impl Reader<'_> {
     ) -> Result<Option<NormalMap>, Error> {
         let Some(map) = map else { return Ok(None) };
         let scale = self.finite(map.scale, &format!("{place}/scale"))?;
-        let transform = match map.extensions.as_ref().and_then(|e| e.others.get("KHR_texture_transform")) {
-            Some(value) => Some(TextureTransform::deserialize(value).map_err(|e| {
-                self.source.invalid(format!("{place}/extensions/KHR_texture_transform"), e.to_string())
-            })?),
-            None => None,
-        };
-        let texture = self.texture(Slot::of_normals(map, transform.as_ref()), false, place)?;
+        let slot = Slot::of_normals(map, self.source, place)?;
+        let texture = self.texture(slot, false, place)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 
@@ -138,7 +131,9 @@ impl Reader<'_> {
         info: Option<&json::texture::Info>,
         place: &str,
     ) -> Result<Option<TextureRef>, Error> {
-        info.map_or(Ok(None), |info| self.texture(info.into(), true, place))
+        let Some(info) = info else { return Ok(None) };
+        let slot = Slot::of_info(info, self.source, place)?;
+        self.texture(slot, true, place)
     }
 
     /// A texture of numbers.
@@ -147,7 +142,9 @@ impl Reader<'_> {
         info: Option<&json::texture::Info>,
         place: &str,
     ) -> Result<Option<TextureRef>, Error> {
-        info.map_or(Ok(None), |info| self.texture(info.into(), false, place))
+        let Some(info) = info else { return Ok(None) };
+        let slot = Slot::of_info(info, self.source, place)?;
+        self.texture(slot, false, place)
     }
 
     /// Numbers in [0, 1].

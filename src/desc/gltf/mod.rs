@@ -32,7 +32,7 @@ mod mesh;
 mod node;
 mod normals;
 mod notes;
-
+mod slot;
 mod tangents;
 mod texture;
 mod triangles;

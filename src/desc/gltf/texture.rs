@@ -1,47 +1,17 @@
 //! Textures, samplers and images.
 
 use super::Reader;
+use super::slot::Slot;
 use crate::desc::{Error, Pixels, Texture, TextureRef, Wrap, image_file};
-use glam::{Affine2, Mat2, Vec2};
 use gltf::json;
-use json::extensions::texture::TextureTransform;
 use json::texture::{MagFilter, WrappingMode};
 use json::validation::Checked;
-
-/// A use of a texture, whatever the kind of reference in the document.
-pub(super) struct Slot<'a> {
-    texture: usize,
-    uv_set: u32,
-    transform: Option<&'a TextureTransform>,
-}
-
-impl<'a> From<&'a json::texture::Info> for Slot<'a> {
-    fn from(info: &'a json::texture::Info) -> Self {
-        let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
-        Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
-    }
-}
-
-impl<'a> Slot<'a> {
-    /// That of a normal map, whose extensions the `gltf` crate leaves untyped.
-    pub(super) fn of_normals(info: &json::material::NormalTexture, transform: Option<&'a TextureTransform>) -> Self {
-        Self { texture: info.index.value(), uv_set: info.tex_coord, transform }
-    }
-}
 
 impl Reader<'_> {
     /// A use of a texture. `None`, with a note, where it wants a UV set beyond the second.
     pub(super) fn texture(&mut self, slot: Slot, srgb: bool, place: &str) -> Result<Option<TextureRef>, Error> {
         let texture = self.document_texture(slot.texture, srgb, place)?;
-        let (mut uv_set, mut transform) = (slot.uv_set, Affine2::IDENTITY);
-        if let Some(t) = slot.transform {
-            uv_set = t.tex_coord.unwrap_or(uv_set);
-            transform = affine(t.offset.0.into(), t.rotation.0, t.scale.0.into());
-            if !transform.is_finite() {
-                let place = format!("{place}/extensions/KHR_texture_transform");
-                return Err(self.source.invalid(place, "has numbers that are not finite"));
-            }
-        }
+        let Slot { uv_set, transform, .. } = slot;
         let reference = |uv_set| TextureRef { texture, uv_set, transform };
         if uv_set > 1 {
             self.notes.at(place, "TEXCOORD_2 and above are not read: textures that use them are left out");
@@ -127,28 +97,5 @@ impl Reader<'_> {
         self.scene.images.push(decoded.into());
         self.images.insert(index, self.scene.images.len() - 1);
         Ok(self.scene.images.len() - 1)
-    }
-}
-
-/// KHR_texture_transform: uv' = T R S uv, with R a counter-clockwise turn of UV as seen with v pointing downwards.
-fn affine(offset: Vec2, rotation: f32, scale: Vec2) -> Affine2 {
-    let (sin, cos) = rotation.sin_cos();
-    let turn = Mat2::from_cols(Vec2::new(cos, -sin), Vec2::new(sin, cos));
-    Affine2::from_mat2_translation(turn * Mat2::from_diagonal(scale), offset)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// The extension's first example: the lower left quadrant of the image, turned clockwise by 90°.
-    #[test]
-    fn transform_selects_the_lower_left_quadrant() {
-        let map = affine(Vec2::new(0.0, 1.0), std::f32::consts::FRAC_PI_2, Vec2::splat(0.5));
-        for (uv, expected) in
-            [([0.0, 0.0], [0.0, 1.0]), ([1.0, 0.0], [0.0, 0.5]), ([0.0, 1.0], [0.5, 1.0]), ([1.0, 1.0], [0.5, 0.5])]
-        {
-            assert!(map.transform_point2(uv.into()).abs_diff_eq(expected.into(), 1e-6), "{uv:?}");
-        }
     }
 }
