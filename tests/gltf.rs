@@ -14,6 +14,8 @@ mod hostile;
 mod materials;
 #[path = "gltf/mutations.rs"]
 mod mutations;
+#[path = "gltf/optics.rs"]
+mod optics;
 #[path = "gltf/tangents.rs"]
 mod tangents;
 #[path = "gltf/textures.rs"]

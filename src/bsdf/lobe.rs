@@ -1,6 +1,9 @@
 //! The closed family of lobes: one arm each, to the files that know them.
 
+use super::beckmann::Beckmann;
+use super::eon::Eon;
 use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
+use super::phong::Phong;
 use super::rough_dielectric::RoughDielectric;
 use super::rough_reflection::{RoughReflection, RoughThin};
 use super::smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
@@ -14,6 +17,8 @@ use std::f32::consts::FRAC_1_PI;
 pub enum Lobe {
     /// Lambert's.
     Lambert(Lambert),
+    /// Rough diffuse.
+    Eon(Eon),
     /// Diffuse base under a specular coat.
     CoupledDiffuse(CoupledDiffuse),
     /// Perfectly smooth reflection.
@@ -24,6 +29,10 @@ pub enum Lobe {
     ThinTransmission(ThinTransmission),
     /// GGX reflection.
     RoughReflection(RoughReflection),
+    /// Reflection of Beckmann's microfacets.
+    CookTorrance(RoughReflection<Beckmann>),
+    /// Phong's.
+    Phong(Phong),
     /// GGX transmission through a thin sheet.
     RoughThin(RoughThin),
     /// GGX dielectric interface.
@@ -41,7 +50,7 @@ impl Lobe {
     #[inline]
     pub fn class(&self) -> Class {
         match self {
-            Self::Lambert(_) | Self::CoupledDiffuse(_) => Class::Diffuse,
+            Self::Lambert(_) | Self::Eon(_) | Self::CoupledDiffuse(_) => Class::Diffuse,
             _ => Class::Specular,
         }
     }
@@ -63,8 +72,11 @@ impl Lobe {
     pub(super) fn eval(&self, wo: Vec3, wi: Vec3, mode: Transport) -> (Spectrum, f32) {
         match self {
             Self::Lambert(l) if wo.z * wi.z > 0.0 => (l.reflectance * FRAC_1_PI, wi.z.abs() * FRAC_1_PI),
+            Self::Eon(l) if wo.z * wi.z > 0.0 => (l.f(wo, wi), wi.z.abs() * FRAC_1_PI),
             Self::CoupledDiffuse(l) if wo.z * wi.z > 0.0 => (l.f(wo, wi), wi.z.abs() * FRAC_1_PI),
             Self::RoughReflection(l) => l.eval(wo, wi),
+            Self::CookTorrance(l) => l.eval(wo, wi),
+            Self::Phong(l) => l.eval(wo, wi),
             Self::RoughThin(l) => l.eval(wo, wi),
             Self::RoughDielectric(l) => l.eval(wo, wi, mode),
             _ => (Spectrum::ZERO, 0.0),
@@ -76,7 +88,10 @@ impl Lobe {
     pub(super) fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2]) -> Option<(Vec3, f32)> {
         match self {
             Self::Lambert(_) | Self::CoupledDiffuse(_) => Some((sample_cosine(wo, u), 1.0)),
+            Self::Eon(l) => Some((l.sample(wo, u), 1.0)),
             Self::RoughReflection(l) => Some((l.sample(wo, uc, u)?, 1.0)),
+            Self::CookTorrance(l) => Some((l.sample(wo, uc, u)?, 1.0)),
+            Self::Phong(l) => Some((l.sample(wo, u)?, 1.0)),
             Self::RoughThin(l) => Some((l.sample(wo, uc, u)?, 1.0)),
             Self::RoughDielectric(l) => {
                 let wi = l.sample(wo, uc, u)?;
@@ -102,13 +117,26 @@ impl Lobe {
     pub fn albedo(&self, wo: Vec3) -> Spectrum {
         match self {
             Self::Lambert(l) => l.reflectance,
+            Self::Eon(l) => l.albedo(wo),
             Self::CoupledDiffuse(l) => l.albedo(wo),
             Self::Mirror(l) => l.fresnel.eval(wo.z.abs().min(1.0)),
             Self::SmoothDielectric(l) => l.albedo(wo),
             Self::ThinTransmission(l) => l.albedo(wo),
             Self::RoughReflection(l) => l.albedo(wo),
+            Self::CookTorrance(l) => l.albedo(wo),
+            Self::Phong(l) => l.albedo(wo),
             Self::RoughThin(l) => l.albedo(wo),
             Self::RoughDielectric(l) => l.albedo(wo),
+        }
+    }
+
+    /// About the albedo, without what costs much: how often to choose it.
+    pub(super) fn importance(&self, wo: Vec3) -> Spectrum {
+        match self {
+            Self::RoughReflection(l) => l.fitted_albedo(wo),
+            Self::CookTorrance(l) => l.fitted_albedo(wo),
+            Self::RoughThin(l) => l.fitted_albedo(wo),
+            _ => self.albedo(wo),
         }
     }
 }

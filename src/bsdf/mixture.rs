@@ -64,9 +64,9 @@ impl Bsdf {
         true
     }
 
-    /// Adds `scale` times a lobe, chosen in proportion to the energy that it scatters of light along `wo`.
+    /// Adds `scale` times a lobe, chosen in proportion to about the energy that it scatters of light along `wo`.
     pub fn push_by_albedo(&mut self, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
-        let albedo = lobe.albedo(wo);
+        let albedo = lobe.importance(wo);
         self.push(lobe, scale, scale * albedo.luminance().max(0.25 * albedo.max_element()))
     }
 

@@ -9,32 +9,44 @@
 //! | file | lobes |
 //! | --- | --- |
 //! | `lambert` | Lambert; diffuse base coupled to a specular coat |
+//! | `eon` | rough diffuse |
 //! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
-//! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
+//! | `rough_reflection` | GGX and Cook–Torrance reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
-//! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
+//! | `phong` | Phong |
+//! | `fresnel`, `thin_film`, `angular`, `ggx`, `beckmann`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
+mod angular;
+pub mod beckmann;
 mod energy;
+mod eon;
 pub mod fresnel;
 pub mod ggx;
 mod lambert;
 mod lobe;
 mod mixture;
+mod phong;
 mod rough_dielectric;
 mod rough_reflection;
 mod smooth;
 mod specimens;
+mod thin_film;
 
+pub use angular::Angular;
+pub use beckmann::Beckmann;
 pub use energy::{Energy, EnergyTable, Interface, Slice};
+pub use eon::Eon;
 pub use fresnel::Fresnel;
 pub use ggx::{Ggx, MIN_ALPHA};
 pub use lambert::{Coat, CoupledDiffuse, Lambert};
 pub use lobe::Lobe;
 pub use mixture::{Bsdf, MAX_LOBES};
+pub use phong::Phong;
 pub use rough_dielectric::{DielectricTables, RoughDielectric};
-pub use rough_reflection::{Micro, RoughReflection, RoughThin, multiple_scattering};
+pub use rough_reflection::{Micro, Microsurface, RoughReflection, RoughThin, multiple_scattering};
 pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
 pub use specimens::{Lazy, Specimen, specimens};
+pub use thin_film::ThinFilm;
 
 use crate::spectrum::Spectrum;
 use glam::Vec3;

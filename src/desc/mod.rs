@@ -27,8 +27,8 @@ pub use expect::{Expect, Value};
 pub use frame_camera::{bounds, framing};
 pub use load::load;
 pub use material::{
-    Alpha, ColorParam, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap, Roughness, ScalarParam, Sides,
-    Transmission,
+    Alpha, ColorParam, Emission, Fresnel, Iridescence, Material, MetallicRoughness, Model, NormalMap, Roughness,
+    ScalarParam, Sides, SpecularGlossiness, Transmission,
 };
 pub use settings::{Filter, Integrator, RenderSettings, SamplerKind, Strategy, Tonemap};
 pub use shape::{Mesh, Object, Shape};

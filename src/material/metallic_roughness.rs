@@ -1,4 +1,4 @@
-//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular and _transmission.
+//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular, _transmission and _iridescence.
 //!
 //! The specification's mixture is kept, its energy is not: `fresnel_mix` as written reflects more than it receives at
 //! grazing angles, so the diffuse base is coupled to the coat by [`CoupledDiffuse`]. With m metalness, t transmission
@@ -8,8 +8,12 @@
 //! * (1 − m)(1 − t) c under the dielectric coat, diffuse;
 //! * (1 − m) t c through the dielectric coat, unbent: thin walls; or, with a volume, the exact refracting interface in
 //!   place of (1 − m) t of the coat and the base, tinted by c.
+//!
+//! Under a film of KHR_materials_iridescence, F is Airy's sum over a base of index (1 + √F₀)/(1 − √F₀), of the dielectric
+//! and of the metal, and not Schlick's; the refracting interface of a volume is bare.
 
 use super::classic::Dielectric;
+use super::iridescence::Covering;
 use super::param::{self, Point};
 use super::roughness::Microsurface;
 use crate::bsdf::{
@@ -37,7 +41,11 @@ impl MetallicRoughness {
         let f0 = if n > 0.0 { ((n - 1.0) / (n + 1.0)).powi(2) } else { 1.0 };
         let volume = desc.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0);
         let interface = volume.then(|| Dielectric::new(n, roughness, desc.base_color));
-        Self { desc: desc.clone(), micro: Microsurface::new(roughness), f0, interface }
+        let micro = Microsurface::new(roughness);
+        if desc.iridescence.is_some() {
+            micro.prepare_series();
+        }
+        Self { desc: desc.clone(), micro, f0, interface }
     }
 
     pub(super) fn is_constant(&self) -> bool {
@@ -49,6 +57,7 @@ impl MetallicRoughness {
             .all(|p| p.texture.is_none())
             && param::is_constant(&d.base_color)
             && param::is_constant(&d.specular_color)
+            && d.iridescence.as_ref().is_none_or(Covering::is_constant)
     }
 
     /// Hands the lobes and their factors to `push`.
@@ -58,7 +67,8 @@ impl MetallicRoughness {
         let metallic = param::scalar(&d.metallic, at);
         let transmission = d.transmission.as_ref().map_or(0.0, |t| param::scalar(&t.factor, at));
         let specular = param::scalar(&d.specular, at);
-        let f0 = (param::color(&d.specular_color, at) * self.f0).min(Spectrum::ONE) * specular;
+        let f0_full = (param::color(&d.specular_color, at) * self.f0).min(Spectrum::ONE);
+        let f0 = f0_full * specular;
         let f90 = Spectrum::splat(specular);
         let micro = self.micro.at(at);
 
@@ -75,9 +85,16 @@ impl MetallicRoughness {
         // Fresnel terms and multiple scattering of the mixture are the mixtures of theirs: both are linear in f.
         let loss = micro.map_or(0.0, |m| m.energy().mean.loss);
         let f_ms = |f: Fresnel| multiple_scattering(f.average(), loss);
-        let coat = Fresnel::schlick(f0, f90);
-        let metal = Fresnel::schlick(base, Spectrum::ONE);
-        let mixed = Fresnel::schlick(f0 * dielectric + base * metallic, f90 * dielectric + Spectrum::splat(metallic));
+        let film = Covering::at(d.iridescence.as_ref(), at);
+        let (coat, metal) = match &film {
+            None => (Fresnel::schlick(f0, f90), Fresnel::schlick(base, Spectrum::ONE)),
+            // What is not there is not summed.
+            Some(film) => {
+                let there = |share: f32| f32::from(share > 0.0);
+                (film.over(f0_full, specular * there(dielectric)), film.over(base, there(metallic)))
+            }
+        };
+        let mixed = coat.mixed(dielectric, &metal, metallic);
         let mixed_f_ms = f_ms(coat) * dielectric + f_ms(metal) * metallic;
         match micro {
             _ if dielectric * specular + metallic == 0.0 => (),
@@ -86,8 +103,12 @@ impl MetallicRoughness {
         }
 
         if dielectric * beneath > 0.0 && !base.is_black() {
-            let coat = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
-            push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), dielectric * beneath);
+            let under = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
+            let diffuse = match film {
+                None => CoupledDiffuse::new(base, under),
+                Some(_) => CoupledDiffuse::under(base, under, coat),
+            };
+            push(Lobe::CoupledDiffuse(diffuse), dielectric * beneath);
         }
         if dielectric * through > 0.0 && !base.is_black() {
             let lobe = match micro {

@@ -1,23 +1,29 @@
 //! Materials: what the author wrote, compiled, and at a hit turned into lobes.
 //!
-//! One file a model: `classic` (mirror, dielectric, conductor) and `metallic_roughness` (glTF); `param` reads
+//! One file a model: `classic` (mirror, dielectric, conductor, rough diffuse, Phong), `cook_torrance`, and `metallic_roughness` (glTF, with the film of
+//! `iridescence`), `specular_glossiness` (its forerunner); `param` reads
 //! parameters and textures, `roughness` holds microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
 
 mod classic;
+mod cook_torrance;
+mod iridescence;
 mod metallic_roughness;
 pub mod param;
 mod roughness;
+mod specular_glossiness;
 
 use crate::bsdf::{Bsdf, Lobe};
-use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap};
+use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap, ScalarParam};
 use crate::math::Frame;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use classic::{Conductor, Dielectric};
+use cook_torrance::CookTorrance;
 use glam::{Vec2, Vec3, Vec4};
 use metallic_roughness::MetallicRoughness;
 use param::Point;
+use specular_glossiness::SpecularGlossiness;
 
 /// A material ready for tracing.
 #[derive(Clone, Debug)]
@@ -47,6 +53,10 @@ enum Part {
     Dielectric(Dielectric),
     Conductor(Conductor),
     MetallicRoughness(Box<MetallicRoughness>),
+    RoughDiffuse(ColorParam, ScalarParam),
+    Phong(ColorParam, f32),
+    CookTorrance(CookTorrance),
+    SpecularGlossiness(Box<SpecularGlossiness>),
 }
 
 impl Part {
@@ -57,6 +67,10 @@ impl Part {
             Self::Dielectric(d) => d.is_constant(),
             Self::Conductor(c) => c.is_constant(),
             Self::MetallicRoughness(m) => m.is_constant(),
+            Self::RoughDiffuse(c, r) => param::is_constant(c) && r.texture.is_none(),
+            Self::Phong(c, _) => param::is_constant(c),
+            Self::CookTorrance(c) => c.is_constant(),
+            Self::SpecularGlossiness(m) => m.is_constant(),
         }
     }
 
@@ -68,6 +82,10 @@ impl Part {
             Self::Dielectric(d) => push(d.lobe(at), 1.0),
             Self::Conductor(c) => push(c.lobe(at), 1.0),
             Self::MetallicRoughness(m) => m.lobes(at, push),
+            Self::RoughDiffuse(c, r) => push(classic::diffuse(param::share(c, at), param::scalar(r, at)), 1.0),
+            Self::Phong(c, exponent) => push(classic::phong(param::share(c, at), *exponent), 1.0),
+            Self::CookTorrance(c) => push(c.lobe(at), 1.0),
+            Self::SpecularGlossiness(m) => m.lobes(at, push),
         }
     }
 
@@ -183,6 +201,7 @@ pub fn most_lobes(model: &desc::Model) -> usize {
         desc::Model::Absorb => 0,
         desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
         desc::Model::MetallicRoughness(m) => 2 + usize::from(m.transmission.is_some()),
+        desc::Model::SpecularGlossiness(_) => 2,
         _ => 1,
     }
 }
@@ -200,6 +219,10 @@ fn flatten(model: &desc::Model, weight: f32, parts: &mut Vec<(f32, Part)>) {
         desc::Model::Dielectric { ior, roughness, tint } => Part::Dielectric(Dielectric::new(*ior, *roughness, *tint)),
         desc::Model::Conductor { fresnel, roughness } => Part::Conductor(Conductor::new(fresnel, *roughness)),
         desc::Model::MetallicRoughness(m) => Part::MetallicRoughness(Box::new(MetallicRoughness::new(m))),
+        desc::Model::RoughDiffuse { reflectance, roughness } => Part::RoughDiffuse(*reflectance, *roughness),
+        desc::Model::CookTorrance { fresnel, roughness } => Part::CookTorrance(CookTorrance::new(fresnel, *roughness)),
+        desc::Model::Phong { reflectance, exponent } => Part::Phong(*reflectance, *exponent),
+        desc::Model::SpecularGlossiness(m) => Part::SpecularGlossiness(Box::new(SpecularGlossiness::new(m))),
     };
     if weight > 0.0 {
         parts.push((weight, part.fixed()));

@@ -10,10 +10,14 @@ const SAME_INDEX: f32 = 2e-3;
 
 /// α along x and y at a point; `None` where the surface is smooth.
 #[inline]
-fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
+pub(super) fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
     let alpha = match roughness {
         Roughness::Perceptual(r) => {
             let r = param::scalar(r, at);
+            [r * r; 2]
+        }
+        Roughness::Glossiness(g) => {
+            let r = 1.0 - param::scalar(g, at);
             [r * r; 2]
         }
         Roughness::Alpha(a) => *a,
@@ -22,14 +26,15 @@ fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
 }
 
 /// α where it is the same everywhere.
-enum Fixed {
+pub(super) enum Fixed {
     Smooth,
     Rough([f32; 2]),
 }
 
-fn fixed(roughness: &Roughness) -> Option<Fixed> {
+/// α ahead of hits; `None` where it varies.
+pub(super) fn fixed(roughness: &Roughness) -> Option<Fixed> {
     match roughness {
-        Roughness::Perceptual(r) if r.texture.is_some() => None,
+        Roughness::Perceptual(r) | Roughness::Glossiness(r) if r.texture.is_some() => None,
         _ => Some(param::nowhere(|at| alpha(roughness, at)).map_or(Fixed::Smooth, Fixed::Rough)),
     }
 }
@@ -56,6 +61,15 @@ impl Microsurface {
 
     pub(super) fn is_constant(&self) -> bool {
         !matches!(self, Self::Varying(..))
+    }
+
+    /// Makes the tables for reflectances that are not Schlick's.
+    pub(super) fn prepare_series(&self) {
+        match self {
+            Self::Smooth => {}
+            Self::Fixed(micro) => micro.energy().prepare_series(),
+            Self::Varying(_, table) => table.prepare_series(),
+        }
     }
 
     /// `None` where the surface is smooth.

@@ -5,11 +5,10 @@ use serde_json::Value;
 use std::path::{Path, PathBuf};
 
 /// What is required, and not honoured, by which file.
-const REFUSED: [(&str, &str); 5] = [
+const REFUSED: [(&str, &str); 4] = [
     ("AnimatedMorphCube.gltf", "KHR_mesh_quantization"),
     ("ChessBoard-draco.glb", "KHR_draco_mesh_compression"),
     ("DreamApartment-meshopt.glb", "EXT_meshopt_compression"),
-    ("IridescenceSuzanne.glb", "KHR_materials_iridescence"),
     ("StainedGlassLamp.gltf", "KHR_texture_basisu"),
 ];
 

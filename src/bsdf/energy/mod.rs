@@ -13,6 +13,7 @@
 
 mod grid;
 mod interface;
+mod moments;
 mod quadrature;
 mod sampling;
 mod table;

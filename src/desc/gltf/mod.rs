@@ -6,6 +6,7 @@
 //! | primitive | one [`Mesh`](super::Mesh), shared by all nodes and primitives with the same data; points and lines are skipped |
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
+//! | `KHR_materials_pbrSpecularGlossiness` | [`SpecularGlossiness`](super::SpecularGlossiness) in its place |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
@@ -26,6 +27,7 @@ mod container;
 mod dielectric;
 mod document;
 mod extensions;
+mod iridescence;
 mod light;
 mod material;
 mod mesh;
@@ -33,6 +35,7 @@ mod node;
 mod normals;
 mod notes;
 mod slot;
+mod specular_glossiness;
 mod tangents;
 mod texture;
 mod triangles;

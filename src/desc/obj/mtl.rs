@@ -201,5 +201,6 @@ fn gloss(base_color: ColorParam, metallic: ScalarParam, roughness: ScalarParam, 
         specular: ScalarParam::constant(1.0),
         specular_color: ColorParam::constant(specular_color),
         transmission: None,
+        iridescence: None,
     }))
 }

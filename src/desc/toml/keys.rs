@@ -86,6 +86,7 @@ macro_rules! one_of {
         $(#[doc = $about])+
         #[derive(Clone, Debug)]
         #[allow(clippy::enum_variant_names, reason = "a variant is called as its table")]
+        #[allow(clippy::large_enum_variant, reason = "there are few, and each is read once")]
         pub(in crate::desc::toml) enum $Name {
             $(
                 /// As its table says.

@@ -19,11 +19,9 @@ pub(super) fn tasks() -> Vec<Task> {
         Task::new(TOPIC, s.name.clone(), move |trial, found| {
             let cosines: &[f64] = trial.pick(&[0.8, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.003]);
             let granted = tables(&s);
-            // The albedo of rough metals comes from a fit of their Fresnel term, which costs choices and no light.
-            let told = if s.name.starts_with("gold") { GOLD } else { granted };
             for side in [1.0, -1.0].into_iter().take(if refracts(&s) { 2 } else { 1 }) {
                 let claims = Claims { lossless: s.lossless, granted, ..Claims::default() };
-                curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims, told);
+                curve(found, trial, &s.bsdf, cosines.iter().map(|mu| side * mu), &claims, granted);
             }
         })
     });
@@ -56,9 +54,6 @@ fn roughnesses(trial: &Trial) -> impl Iterator<Item = f32> {
     let n = trial.pick(4, 24);
     (0..=n).map(move |i| 10f32.powf(-3.5 * (1.0 - i as f32 / n as f32)))
 }
-
-/// Error of the fit of metals.
-const GOLD: f64 = 3e-2;
 
 /// Below this μα a half-vector in f32, whose slope is off by 6·10⁻⁸/μ, no longer resolves a lobe of width α.
 const HALF_VECTOR: f64 = 1e-5;
