@@ -110,8 +110,9 @@ impl CoupledDiffuse {
     /// Base under a coat whose reflectance is not Schlick's: of `coat`, only the energy and F_ms count.
     pub fn under(reflectance: Spectrum, coat: Coat, fresnel: Fresnel) -> Self {
         let film = match (coat.energy, fresnel.angular()) {
+            (_, None) => return Self::new(reflectance, coat),
+            (None, Some(_)) => FilmCoat::Smooth(fresnel),
             (Some(energy), Some(series)) => FilmCoat::Rough(series.covering(), energy),
-            _ => FilmCoat::Smooth(fresnel),
         };
         Self::with(reflectance, coat, film.transmitted_average(coat.f_ms), Some(film))
     }

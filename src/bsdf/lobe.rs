@@ -2,6 +2,7 @@
 
 use super::beckmann::Beckmann;
 use super::eon::Eon;
+use super::filmed_dielectric::{FilmedDielectric, RoughFilmedDielectric};
 use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
 use super::phong::Phong;
 use super::rough_dielectric::RoughDielectric;
@@ -37,6 +38,10 @@ pub enum Lobe {
     RoughThin(RoughThin),
     /// GGX dielectric interface.
     RoughDielectric(RoughDielectric),
+    /// Perfectly smooth dielectric interface under a film.
+    FilmedDielectric(FilmedDielectric),
+    /// GGX dielectric interface under a film.
+    RoughFilmedDielectric(RoughFilmedDielectric),
 }
 
 impl Lobe {
@@ -58,13 +63,16 @@ impl Lobe {
     /// A delta distribution.
     #[inline]
     pub fn is_delta(&self) -> bool {
-        matches!(self, Self::Mirror(_) | Self::SmoothDielectric(_) | Self::ThinTransmission(_))
+        matches!(
+            self,
+            Self::Mirror(_) | Self::SmoothDielectric(_) | Self::FilmedDielectric(_) | Self::ThinTransmission(_)
+        )
     }
 
     /// Light crosses the surface, other than as a delta.
     #[inline]
     pub fn transmits(&self) -> bool {
-        matches!(self, Self::RoughThin(_) | Self::RoughDielectric(_))
+        matches!(self, Self::RoughThin(_) | Self::RoughDielectric(_) | Self::RoughFilmedDielectric(_))
     }
 
     /// f \[1/sr\] and density \[1/sr\] of `wi` among the draws of this lobe; 0 for deltas.
@@ -79,6 +87,7 @@ impl Lobe {
             Self::Phong(l) => l.eval(wo, wi),
             Self::RoughThin(l) => l.eval(wo, wi),
             Self::RoughDielectric(l) => l.eval(wo, wi, mode),
+            Self::RoughFilmedDielectric(l) => l.eval(wo, wi, mode),
             _ => (Spectrum::ZERO, 0.0),
         }
     }
@@ -97,7 +106,8 @@ impl Lobe {
                 let wi = l.sample(wo, uc, u)?;
                 Some((wi, l.crossed(wo, wi)))
             }
-            Self::Mirror(_) | Self::SmoothDielectric(_) | Self::ThinTransmission(_) => None,
+            Self::RoughFilmedDielectric(l) => l.sample(wo, uc, u),
+            Self::Mirror(_) | Self::SmoothDielectric(_) | Self::FilmedDielectric(_) | Self::ThinTransmission(_) => None,
         }
     }
 
@@ -107,6 +117,7 @@ impl Lobe {
         match self {
             Self::Mirror(l) => l.deltas(wo),
             Self::SmoothDielectric(l) => l.deltas(wo, mode),
+            Self::FilmedDielectric(l) => l.deltas(wo, mode),
             Self::ThinTransmission(l) => l.deltas(wo),
             _ => [None, None],
         }
@@ -127,6 +138,8 @@ impl Lobe {
             Self::Phong(l) => l.albedo(wo),
             Self::RoughThin(l) => l.albedo(wo),
             Self::RoughDielectric(l) => l.albedo(wo),
+            Self::FilmedDielectric(l) => l.albedo(wo),
+            Self::RoughFilmedDielectric(l) => l.albedo(wo),
         }
     }
 

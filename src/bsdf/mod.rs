@@ -14,12 +14,14 @@
 //! | `rough_reflection` | GGX and Cook–Torrance reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
 //! | `phong` | Phong |
+//! | `filmed_dielectric` | smooth and rough dielectric under a thin film |
 //! | `fresnel`, `thin_film`, `angular`, `ggx`, `beckmann`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
 mod angular;
 pub mod beckmann;
 mod energy;
 mod eon;
+mod filmed_dielectric;
 pub mod fresnel;
 pub mod ggx;
 mod lambert;
@@ -36,6 +38,7 @@ pub use angular::Angular;
 pub use beckmann::Beckmann;
 pub use energy::{Energy, EnergyTable, Interface, Slice};
 pub use eon::Eon;
+pub use filmed_dielectric::{FilmedDielectric, RoughFilmedDielectric};
 pub use fresnel::Fresnel;
 pub use ggx::{Ggx, MIN_ALPHA};
 pub use lambert::{Coat, CoupledDiffuse, Lambert};

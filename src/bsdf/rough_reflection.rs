@@ -84,6 +84,11 @@ impl Micro<Beckmann> {
 }
 
 impl<M> Micro<M> {
+    /// Normals and masking.
+    pub fn surface(&self) -> &M {
+        &self.surface
+    }
+
     /// Its energy table at this roughness.
     pub fn energy(&self) -> &Slice {
         &self.energy

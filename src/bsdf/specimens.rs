@@ -64,6 +64,8 @@ pub fn specimens() -> Vec<Specimen> {
     all.add("cook-torrance gold α 0.15", false, || cook_torrance(0.15, gold()));
     all.add("film on metal α 0.2", false, move || metal([0.2; 2], Fresnel::under_film(FILM, 1.0, grey, 1.0)));
     all.add("film on white α 0.2", true, || filmed_white(Some(0.2)));
+    let glass = FilmedDielectric { eta: 1.5, tint: Spectrum::ONE, film: FILM, share: 1.0 };
+    all.add("smooth dielectric under film", true, move || Bsdf::single(Lobe::FilmedDielectric(glass)));
     all.add("film on white, smooth", true, || filmed_white(None));
 
     let copper = Spectrum::from_rgb([0.2, 0.1, 0.04]);

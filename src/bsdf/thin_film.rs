@@ -229,37 +229,6 @@ mod tests {
         }
     }
 
-    /// Against the sum of amplitudes in complex numbers, where R + T = 1 is a result.
-    #[test]
-    fn what_is_not_reflected_is_transmitted() {
-        for (eta, f0) in [(1.3f64, 0.04f64), (1.8, 0.04), (1.33, 0.3)] {
-            for cos in [1.0f64, 0.7, 0.2] {
-                for phase in [0.3f64, 1.0, 2.0, 4.0] {
-                    let n = (1.0 + f0.sqrt()) / (1.0 - f0.sqrt());
-                    let inside = |n: f64| (1.0 - (1.0 - cos * cos) / (n * n)).sqrt();
-                    let (c1, c2) = (inside(eta), inside(n));
-                    let mut reflected = 0.0;
-                    for admittances in [[cos, eta * c1, n * c2], [1.0 / cos, eta / c1, n / c2]] {
-                        let [y0, y1, y2] = admittances;
-                        let (a, b) = ((y0 - y1) / (y0 + y1), (y1 - y2) / (y1 + y2));
-                        let (t1, t2) = (2.0 * y0 / (y0 + y1), 2.0 * y1 / (y1 + y2));
-                        let (re, im) = (1.0 + a * b * phase.cos(), a * b * phase.sin());
-                        let (top_re, top_im) = (a + b * phase.cos(), b * phase.sin());
-                        let norm = re * re + im * im;
-                        let r = (top_re * top_re + top_im * top_im) / norm;
-                        let t = (t1 * t2).powi(2) / norm * y2 / y0;
-                        assert!((r + t - 1.0).abs() < 1e-12, "{r} {t}");
-                        reflected += 0.5 * r;
-                    }
-                    // φ = 2π · 2 n d cos θ_f / λ.
-                    let thickness = phase / TAU * 500.0 / (2.0 * eta * c1);
-                    let r = film(eta as f32, thickness as f32).monochromatic(cos as f32, f0 as f32, 500.0);
-                    assert!((f64::from(r) - reflected).abs() < 1e-5, "{eta} {f0} {cos} {phase}: {r} {reflected}");
-                }
-            }
-        }
-    }
-
     #[test]
     fn nothing_is_left_where_coherence_ends() {
         for i in 0..1000 {

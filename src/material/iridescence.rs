@@ -1,7 +1,7 @@
 //! KHR_materials_iridescence: where the film lies, and how thick it is.
 
 use super::param::{self, Point};
-use crate::bsdf::{Fresnel, ThinFilm};
+use crate::bsdf::{FilmedDielectric, Fresnel, Lobe, Micro, RoughFilmedDielectric, ThinFilm};
 use crate::desc::{self, ScalarParam};
 use crate::spectrum::Spectrum;
 
@@ -33,5 +33,15 @@ impl Covering {
     #[inline]
     pub(super) fn over(&self, f0: Spectrum, weight: f32) -> Fresnel {
         Fresnel::under_film(self.film, self.share, f0, weight)
+    }
+
+    /// The interface of a volume of index `eta` ≥ 1.
+    #[inline]
+    pub(super) fn interface(&self, eta: f32, tint: Spectrum, micro: Option<Micro>) -> Lobe {
+        let facet = FilmedDielectric { eta, tint, film: self.film, share: self.share };
+        match micro {
+            None => Lobe::FilmedDielectric(facet),
+            Some(micro) => Lobe::RoughFilmedDielectric(RoughFilmedDielectric { ggx: *micro.surface(), facet }),
+        }
     }
 }

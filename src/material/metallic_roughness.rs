@@ -10,7 +10,8 @@
 //!   place of (1 − m) t of the coat and the base, tinted by c.
 //!
 //! Under a film of KHR_materials_iridescence, F is Airy's sum over a base of index (1 + √F₀)/(1 − √F₀), of the dielectric
-//! and of the metal, and not Schlick's; the refracting interface of a volume is bare.
+//! and of the metal, and not Schlick's; the refracting interface of a volume shares out between reflection and refraction as
+//! the film does.
 
 use super::classic::Dielectric;
 use super::iridescence::Covering;
@@ -71,11 +72,16 @@ impl MetallicRoughness {
         let f0 = f0_full * specular;
         let f90 = Spectrum::splat(specular);
         let micro = self.micro.at(at);
+        let film = Covering::at(d.iridescence.as_ref(), at);
 
         // The refracting interface takes its share of everything that is not metal.
         let dielectric = match &self.interface {
             Some(interface) => {
-                push(interface.lobe(at), (1.0 - metallic) * transmission);
+                let lobe = match &film {
+                    Some(film) if d.ior >= 1.0 => film.interface(d.ior, base, micro),
+                    _ => interface.lobe(at),
+                };
+                push(lobe, (1.0 - metallic) * transmission);
                 (1.0 - metallic) * (1.0 - transmission)
             }
             None => 1.0 - metallic,
@@ -85,7 +91,6 @@ impl MetallicRoughness {
         // Fresnel terms and multiple scattering of the mixture are the mixtures of theirs: both are linear in f.
         let loss = micro.map_or(0.0, |m| m.energy().mean.loss);
         let f_ms = |f: Fresnel| multiple_scattering(f.average(), loss);
-        let film = Covering::at(d.iridescence.as_ref(), at);
         let (coat, metal) = match &film {
             None => (Fresnel::schlick(f0, f90), Fresnel::schlick(base, Spectrum::ONE)),
             // What is not there is not summed.

@@ -2,11 +2,13 @@
 
 use crate::material::{compile, gltf, surface};
 use crate::{at_cosine, sampled_albedo};
-use radianza::bsdf::{Bsdf, Class, Lobe, Transport};
+use radianza::bsdf::{Bsdf, Class, FilmedDielectric, Ggx, Lobe, RoughFilmedDielectric, ThinFilm, Transport};
 use radianza::desc::{ColorParam, Fresnel, Iridescence, Model, Roughness, ScalarParam, SpecularGlossiness};
 use radianza::glam::Vec3;
 use radianza::stats::Family;
 use radianza::texture::Textures;
+use radianza::verify::scattering::{Claims, check};
+use radianza::verify::{Findings, Size, Trial};
 
 const WHITE: ColorParam = ColorParam::constant([1.0; 3]);
 
@@ -140,4 +142,31 @@ fn cook_torrance_has_beckmanns_tail() {
         assert!((peak / (0.04 / (4.0 * std::f32::consts::PI * 0.04)) - 1.0).abs() < 0.01, "{peak}");
     }
     assert!(f(true, 60.0) < 0.05 * f(false, 60.0), "{} {}", f(true, 60.0), f(false, 60.0));
+}
+
+/// Rough glass under a film: densities, reciprocity, and energy that is at most 1.
+#[test]
+fn filmed_glass_scatters_as_it_says() {
+    let film = ThinFilm { eta: 1.8, thickness: 350.0 };
+    let facet = FilmedDielectric { eta: 1.5, tint: radianza::spectrum::Spectrum::ONE, film, share: 0.9 };
+    let lobe = RoughFilmedDielectric { ggx: Ggx { ax: 0.3, ay: 0.3 }, facet };
+    let bsdf = Bsdf::single(Lobe::RoughFilmedDielectric(lobe));
+    let mut found = Findings::new("glass under a film");
+    let claims = Claims { two_sided: true, rounding: 3e-3, ..Claims::default() };
+    check(&mut found, &Trial { seed: 3, size: Size::Default }, "glass", &bsdf, &claims);
+    assert!(found.checks.passes(), "{}", found.checks);
+}
+
+/// A volume is seen through its film: what is reflected is coloured, and nothing is lost.
+#[test]
+fn volumes_have_films() {
+    let mut m = gltf(0.0, 0.0);
+    m.transmission = Some(radianza::desc::Transmission { factor: ScalarParam::constant(1.0), thin: false });
+    m.iridescence = film(400.0, 1.0);
+    let bsdf = lobes(Model::MetallicRoughness(Box::new(m)), 0.8);
+    let wo = at_cosine(0.8);
+    let deltas = bsdf.deltas(wo, Transport::Importance);
+    let [reflected, refracted] = [1.0, -1.0].map(|side| deltas.iter().find(|d| d.wi.z * side > 0.0).unwrap().weight.0);
+    assert!((reflected + refracted - radianza::glam::Vec4::ONE).abs().max_element() < 1e-5, "{reflected} {refracted}");
+    assert!((reflected.x - reflected.y).abs() > 0.05 * reflected.y, "{reflected}");
 }

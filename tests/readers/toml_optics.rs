@@ -23,7 +23,10 @@ fn lobes_are_read() {
     let glossy = Model::CookTorrance { fresnel, roughness: Roughness::Alpha([0.2, 0.4]) };
     assert_eq!(model("type = \"cook-torrance\"\nior = 1.5\nalpha = [0.2, 0.4]"), Ok(glossy));
     let gold = model("type = \"cook-torrance\"\nmetal = \"Au\"\nroughness = 0.3").unwrap();
-    assert!(matches!(gold, Model::CookTorrance { fresnel: Fresnel::Complex { .. }, roughness: Roughness::Perceptual(_) }));
+    assert!(matches!(
+        gold,
+        Model::CookTorrance { fresnel: Fresnel::Complex { .. }, roughness: Roughness::Perceptual(_) }
+    ));
     let filmed = model("type = \"metallic-roughness\"\nfilm = { thickness = 300, share = 0.5 }");
     let Ok(Model::MetallicRoughness(m)) = filmed else { panic!("{filmed:?}") };
     let factor = ScalarParam::constant(0.5);

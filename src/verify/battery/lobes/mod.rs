@@ -2,6 +2,7 @@
 
 mod density;
 mod energy;
+mod film;
 mod fresnel;
 mod lambert;
 mod microsurface;
@@ -13,13 +14,14 @@ use crate::verify::Task;
 
 /// Every check of lobes.
 pub(super) fn tasks() -> Vec<Task> {
-    let rows: [fn() -> Vec<Task>; 7] = [
+    let rows: [fn() -> Vec<Task>; 8] = [
         lambert::tasks,
         microsurface::tasks,
         reciprocity::tasks,
         energy::tasks,
         density::tasks,
         fresnel::tasks,
+        film::tasks,
         radiance::tasks,
     ];
     rows.iter().flat_map(|row| row()).collect()
