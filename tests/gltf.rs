@@ -22,6 +22,8 @@ mod lights;
 mod materials;
 #[path = "gltf/mutations.rs"]
 mod mutations;
+#[path = "gltf/optics.rs"]
+mod optics;
 #[path = "gltf/pose.rs"]
 mod pose;
 #[path = "gltf/quantized.rs"]

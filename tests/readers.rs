@@ -12,6 +12,8 @@ mod models;
 mod schema;
 #[path = "readers/toml_errors.rs"]
 mod toml_errors;
+#[path = "readers/toml_optics.rs"]
+mod toml_optics;
 #[path = "readers/toml_values.rs"]
 mod toml_values;
 

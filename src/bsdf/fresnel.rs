@@ -1,5 +1,7 @@
 //! Fresnel reflectance: exact for dielectrics and metals, Schlick's approximation for authored colours.
 
+use super::angular::Angular;
+use super::thin_film::ThinFilm;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};
@@ -23,6 +25,44 @@ pub enum Fresnel {
         /// Cosine-weighted mean of the reflectance over the hemisphere.
         average: Spectrum,
     },
+    /// Under a thin film, wholly or in part; made by [`Fresnel::under_film`].
+    Film(Film),
+}
+
+/// Schlick's approximation beside bases under one film, f = F₀ + (F₉₀ − F₀)(1 − cos θ)⁵ + Σ weight · film.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    f0: Spectrum,
+    f90: Spectrum,
+    film: ThinFilm,
+    bases: [Base; 2],
+    average: Spectrum,
+}
+
+/// What a film lies on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Base {
+    weight: f32,
+    /// √F₀ of the base alone.
+    root: Vec4,
+}
+
+impl Film {
+    /// With its average.
+    fn new(f0: Spectrum, f90: Spectrum, film: ThinFilm, bases: [Base; 2]) -> Self {
+        let mut new = Self { f0, f90, film, bases, average: Spectrum::ZERO };
+        new.average = Angular::new(|cos| new.eval(cos)).average();
+        new
+    }
+
+    #[inline]
+    fn eval(&self, cos: f32) -> Spectrum {
+        let mut f = Spectrum::lerp(self.f0, self.f90, pow5(1.0 - cos));
+        for base in self.bases.iter().filter(|b| b.weight > 0.0) {
+            f += self.film.reflectance(cos, base.root) * base.weight;
+        }
+        f
+    }
 }
 
 impl Fresnel {
@@ -43,12 +83,39 @@ impl Fresnel {
         Self::Complex { eta, k, average: (0..N).map(term).sum() }
     }
 
+    /// A base that reflects `f0` at normal incidence, by Schlick's approximation where it is bare and by Airy's sum on the
+    /// `share` of it that is under the film; `weight` times all of it.
+    pub fn under_film(film: ThinFilm, share: f32, f0: Spectrum, weight: f32) -> Self {
+        let bare = weight * (1.0 - share);
+        let base = Base { weight: weight * share, root: f0.map(|f| f.clamp(0.0, 1.0).sqrt()).0 };
+        let bases = [base, Base { weight: 0.0, root: Vec4::ZERO }];
+        Self::Film(Film::new(f0 * bare, Spectrum::splat(bare), film, bases))
+    }
+
+    /// a · `self` + b · `other`, for two of Schlick's or two under the same film.
+    pub fn mixed(&self, a: f32, other: &Self, b: f32) -> Self {
+        match (self, other) {
+            (Self::Film(x), Self::Film(y)) => {
+                let base = |f: &Film, weight: f32| Base { weight: f.bases[0].weight * weight, ..f.bases[0] };
+                let mut mixed = Film { bases: [base(x, a), base(y, b)], ..*x };
+                (mixed.f0, mixed.f90) = (x.f0 * a + y.f0 * b, x.f90 * a + y.f90 * b);
+                mixed.average = x.average * a + y.average * b;
+                Self::Film(mixed)
+            }
+            _ => {
+                let ((f0, f90, _), (g0, g90, _)) = (self.fit(), other.fit());
+                Self::schlick(f0 * a + g0 * b, f90 * a + g90 * b)
+            }
+        }
+    }
+
     /// Reflectance at the angle of cosine `cos` ≥ 0.
     #[inline]
     pub fn eval(&self, cos: f32) -> Spectrum {
         match *self {
             Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, pow5(1.0 - cos)),
             Self::Complex { eta, k, .. } => conductor(cos, eta, k),
+            Self::Film(ref film) => film.eval(cos),
         }
     }
 
@@ -58,19 +125,28 @@ impl Fresnel {
         match *self {
             Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, 1.0 / 21.0),
             Self::Complex { average, .. } => average,
+            Self::Film(ref film) => film.average,
         }
     }
 
-    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶: exact for Schlick; for metals exact at normal and
-    /// grazing incidence and in the mean (the form of Hoffman 2019, "Fresnel Equations Considered Harmful").
+    /// The series that rough surfaces sum their energy by; none for Schlick's, whose own two terms are tabulated.
+    pub fn angular(&self) -> Option<Angular> {
+        match self {
+            Self::Schlick { .. } => None,
+            Self::Complex { .. } | Self::Film(_) => Some(Angular::new(|cos| self.eval(cos))),
+        }
+    }
+
+    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶: exact for Schlick; else exact at normal and grazing
+    /// incidence and in the mean (the form of Hoffman 2019, "Fresnel Equations Considered Harmful").
     #[inline]
     pub fn fit(&self) -> (Spectrum, Spectrum, Spectrum) {
         match *self {
             Self::Schlick { f0, f90 } => (f0, f90, Spectrum::ZERO),
-            Self::Complex { average, .. } => {
-                let f0 = self.eval(1.0);
+            Self::Complex { average, .. } | Self::Film(Film { average, .. }) => {
+                let (f0, f90) = (self.eval(1.0), self.eval(0.0));
                 // The means of (1 − c)⁵ and c(1 − c)⁶ are 1/21 and 1/126.
-                (f0, Spectrum::ONE, (Spectrum::lerp(f0, Spectrum::ONE, 1.0 / 21.0) - average) * 126.0)
+                (f0, f90, (Spectrum::lerp(f0, f90, 1.0 / 21.0) - average) * 126.0)
             }
         }
     }

@@ -3,6 +3,7 @@
 //! Written with the stretched length s(w) = √(αx² x² + αy² y² + z²), for which Λ(w) = (s/|z| − 1)/2; that keeps every
 //! quotient of masking terms and cosines finite at grazing angles.
 
+use super::rough_reflection::Microsurface;
 use crate::math::safe_sqrt;
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};
@@ -70,6 +71,25 @@ impl Ggx {
         let r = safe_sqrt(u[1] * (1.0 + o.z) * (1.0 + z));
         let (sin, cos) = (TAU * u[0]).sin_cos();
         Vec3::new(self.ax * (r * cos + o.x), self.ay * (r * sin + o.y), hz).normalize_or(Vec3::Z)
+    }
+}
+
+impl Microsurface for Ggx {
+    #[inline]
+    fn d(&self, m: Vec3) -> f32 {
+        Self::d(self, m)
+    }
+    #[inline]
+    fn g2_over_cosines(&self, o: Vec3, i: Vec3) -> f32 {
+        Self::g2_over_cosines(self, o, i)
+    }
+    #[inline]
+    fn visible_over_cosine(&self, o: Vec3, m: Vec3) -> f32 {
+        Self::visible_over_cosine(self, o, m)
+    }
+    #[inline]
+    fn sample_visible(&self, o: Vec3, u: [f32; 2]) -> Vec3 {
+        Self::sample_visible(self, o, u)
     }
 }
 

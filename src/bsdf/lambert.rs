@@ -1,5 +1,7 @@
 //! Diffuse lobes: Lambert's, and the one that glows through a specular coat.
 
+use super::Fresnel;
+use super::angular::Angular;
 use super::energy::Slice;
 use super::fresnel::pow5;
 use crate::spectrum::Spectrum;
@@ -28,6 +30,35 @@ pub struct CoupledDiffuse {
     scaled: Spectrum,
     average: Spectrum,
     coat: Coat,
+    /// In place of Schlick's terms.
+    film: Option<FilmCoat>,
+}
+
+/// Reflectance of a coat under a thin film.
+#[derive(Clone, Copy, Debug)]
+enum FilmCoat {
+    Smooth(Fresnel),
+    Rough(Angular, Slice),
+}
+
+impl FilmCoat {
+    /// 1 − E_s towards `w`; F_ms is `f_ms`.
+    #[inline]
+    fn transmitted(&self, w: Vec3, f_ms: Spectrum) -> Spectrum {
+        let e = match self {
+            Self::Smooth(fresnel) => fresnel.eval(w.z.abs().min(1.0)),
+            Self::Rough(series, energy) => energy.reflected(series, w) + f_ms * energy.at(w).loss,
+        };
+        (Spectrum::ONE - e).max(Spectrum::ZERO)
+    }
+
+    fn transmitted_average(&self, f_ms: Spectrum) -> Spectrum {
+        let e = match self {
+            Self::Smooth(fresnel) => fresnel.average(),
+            Self::Rough(series, energy) => energy.reflected_mean(series) + f_ms * energy.mean.loss,
+        };
+        (Spectrum::ONE - e).max(Spectrum::ZERO)
+    }
 }
 
 /// Albedo of a specular coat by Schlick's terms, multiple scattering included.
@@ -81,31 +112,52 @@ impl Coat {
 impl CoupledDiffuse {
     /// Base of albedo `reflectance` under `coat`.
     pub fn new(reflectance: Spectrum, coat: Coat) -> Self {
-        let average = coat.transmitted_average();
+        Self::with(reflectance, coat, coat.transmitted_average(), None)
+    }
+
+    /// Base under a coat whose reflectance is not Schlick's: of `coat`, only the energy and F_ms count.
+    pub fn under(reflectance: Spectrum, coat: Coat, fresnel: Fresnel) -> Self {
+        let film = match (coat.energy, fresnel.angular()) {
+            (_, None) => return Self::new(reflectance, coat),
+            (None, Some(_)) => FilmCoat::Smooth(fresnel),
+            (Some(energy), Some(series)) => FilmCoat::Rough(series.covering(), energy),
+        };
+        Self::with(reflectance, coat, film.transmitted_average(coat.f_ms), Some(film))
+    }
+
+    fn with(reflectance: Spectrum, coat: Coat, average: Spectrum, film: Option<FilmCoat>) -> Self {
         // Where a coat lets nothing through there is no base to be seen.
         let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
-        Self { scaled, average, coat }
+        Self { scaled, average, coat, film }
     }
 
     /// The same base beneath further layers, which scale f by T(o) T(i): 1 − E_s,avg becomes the mean ⟨T (1 − E_s)⟩, which
     /// `mean` finds, given the microsurface that 1 − E_s depends on and 1 − E_s itself.
     pub(super) fn beneath(&self, mean: impl Fn(Option<&Slice>, &dyn Fn(Vec3) -> Spectrum) -> Spectrum) -> Self {
-        let average = mean(self.coat.energy.as_ref(), &|w| self.coat.transmitted(w));
+        let average = mean(self.coat.energy.as_ref(), &|w| self.transmitted(w));
         let reflectance = self.scaled * self.average;
         let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
-        Self { scaled, average, coat: self.coat }
+        Self { scaled, average, ..*self }
     }
 
     /// f \[1/sr\] for directions on the same side.
     #[inline]
     pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        self.scaled * self.coat.transmitted(wo) * self.coat.transmitted(wi) * FRAC_1_PI
+        self.scaled * self.transmitted(wo) * self.transmitted(wi) * FRAC_1_PI
     }
 
     /// Directional albedo.
     #[inline]
     pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
-        self.scaled * self.coat.transmitted(wo) * self.average
+        self.scaled * self.transmitted(wo) * self.average
+    }
+
+    #[inline]
+    fn transmitted(&self, w: Vec3) -> Spectrum {
+        match &self.film {
+            None => self.coat.transmitted(w),
+            Some(film) => film.transmitted(w, self.coat.f_ms),
+        }
     }
 }
 

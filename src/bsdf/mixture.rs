@@ -72,14 +72,14 @@ impl Bsdf {
         true
     }
 
-    /// Adds `scale` times a lobe, chosen in proportion to the energy that it scatters of light along `wo`.
+    /// Adds `scale` times a lobe, chosen in proportion to about the energy that it scatters of light along `wo`.
     pub fn push_by_albedo(&mut self, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
         self.push_by_albedo_in(None, lobe, scale, wo)
     }
 
     /// The same with the lobe in a frame of its own, where there is one.
     pub fn push_by_albedo_in(&mut self, frame: Option<Frame>, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
-        let albedo = lobe.albedo(frame.map_or(wo, |frame| frame.to_local(wo)));
+        let albedo = lobe.importance(frame.map_or(wo, |frame| frame.to_local(wo)));
         let weight = scale * albedo.luminance().max(0.25 * albedo.max_element());
         self.push_entry(Entry::new(lobe, frame, scale, weight))
     }

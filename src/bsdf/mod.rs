@@ -10,42 +10,57 @@
 //! | --- | --- |
 //! | `lambert` | Lambert; diffuse base coupled to a specular coat |
 //! | `diffuse_transmission` | diffuse to the other side |
+//! | `eon` | rough diffuse |
 //! | `smooth` | mirror and smooth metal, smooth dielectric, straight transmission |
-//! | `rough_reflection` | GGX reflection; GGX transmission through a thin sheet |
+//! | `rough_reflection` | GGX and Cook–Torrance reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
 //! | `sheen` | fibres |
 //! | `entry`, `layer` | a lobe in its frame, and beneath the layers that dim it |
-//! | `fresnel`, `ggx`, `energy` | what they share: reflectance, microsurface, multiple scattering |
+//! | `phong` | Phong |
+//! | `filmed_dielectric` | smooth and rough dielectric under a thin film |
+//! | `fresnel`, `thin_film`, `angular`, `ggx`, `beckmann`, `energy` | what they share: reflectance, microsurface, multiple scattering |
 
+mod angular;
+pub mod beckmann;
 mod diffuse_transmission;
 mod energy;
 mod entry;
+mod eon;
+mod filmed_dielectric;
 pub mod fresnel;
 pub mod ggx;
 mod lambert;
 mod layer;
 mod lobe;
 mod mixture;
+mod phong;
 mod rough_dielectric;
 mod rough_reflection;
 mod sheen;
 mod smooth;
 mod specimens;
+mod thin_film;
 
+pub use angular::Angular;
+pub use beckmann::Beckmann;
 pub use diffuse_transmission::DiffuseTransmission;
 pub use energy::{Atlas, Energy, EnergyTable, Interface, Slice};
 pub use entry::MAX_LAYERS;
+pub use eon::Eon;
+pub use filmed_dielectric::{FilmedDielectric, RoughFilmedDielectric};
 pub use fresnel::Fresnel;
 pub use ggx::{Ggx, MIN_ALPHA};
 pub use lambert::{Coat, CoupledDiffuse, Lambert};
 pub use layer::Layer;
 pub use lobe::Lobe;
 pub use mixture::{Bsdf, MAX_LOBES};
+pub use phong::Phong;
 pub use rough_dielectric::{DielectricTables, RoughDielectric};
-pub use rough_reflection::{Micro, RoughReflection, RoughThin, multiple_scattering};
+pub use rough_reflection::{Micro, Microsurface, RoughReflection, RoughThin, multiple_scattering};
 pub use sheen::{Sheen, SheenAlbedo};
 pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
 pub use specimens::{Lazy, Specimen, specimens};
+pub use thin_film::ThinFilm;
 
 use crate::spectrum::Spectrum;
 use glam::Vec3;

@@ -1,5 +1,7 @@
-//! GGX microfacets that reflect, or pass light on below: conductors, glTF's specular coat, and its thin transmission.
+//! Microfacets that reflect, or pass light on below: conductors, glTF's specular coat, and its thin transmission. GGX, or
+//! Beckmann's as Cook and Torrance have them.
 
+use super::beckmann::Beckmann;
 use super::energy::{Atlas, Energy, Slice};
 use super::ggx::{Ggx, half_vector, reflect};
 use super::{Coat, Fresnel, Interface};
@@ -7,16 +9,28 @@ use crate::spectrum::Spectrum;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;
 
-/// GGX reflection with the multiply scattered rest:
+/// How normals are distributed, which of them are seen, and from where to where light gets.
+pub trait Microsurface: Copy {
+    /// Distribution of normals D(m) \[1/sr\].
+    fn d(&self, m: Vec3) -> f32;
+    /// Masking and shadowing over the cosines, G₂/(|cos o||cos i|).
+    fn g2_over_cosines(&self, o: Vec3, i: Vec3) -> f32;
+    /// Density \[1/sr\] of visible normals over the cosine ⟨o·m⟩.
+    fn visible_over_cosine(&self, o: Vec3, m: Vec3) -> f32;
+    /// Normal visible from `o` (o.z > 0).
+    fn sample_visible(&self, o: Vec3, u: [f32; 2]) -> Vec3;
+}
+
+/// Microfacet reflection with the multiply scattered rest:
 ///
 /// ```text
 /// f = F(o·h) D(h) G₂(o, i) / (4 |cos o||cos i|) + F_ms loss(o) loss(i) / (π loss_avg)
 /// ```
 ///
-/// (Walter et al. 2007; Heitz 2014; Kulla & Conty 2017). Two-sided.
+/// (Cook & Torrance 1982; Walter et al. 2007; Heitz 2014; Kulla & Conty 2017). Two-sided.
 #[derive(Clone, Copy, Debug)]
-pub struct RoughReflection {
-    micro: Micro,
+pub struct RoughReflection<M = Ggx> {
+    micro: Micro<M>,
     fresnel: Fresnel,
     /// F₀, F₉₀, k of [`Fresnel::fit`], for the albedo.
     fit: (Spectrum, Spectrum, Spectrum),
@@ -33,8 +47,8 @@ pub struct RoughThin {
 
 /// A microsurface and its energy.
 #[derive(Clone, Copy, Debug)]
-pub struct Micro {
-    ggx: Ggx,
+pub struct Micro<M = Ggx> {
+    surface: M,
     energy: Slice,
 }
 
@@ -43,22 +57,44 @@ impl Micro {
     pub fn new(alpha: [f32; 2]) -> Self {
         let [ax, ay] = alpha.map(|a| a.clamp(super::MIN_ALPHA, 1.0));
         let ggx = Ggx { ax, ay };
-        Self { ggx, energy: Slice::new(Interface::Mirror, ggx) }
+        Self { surface: ggx, energy: Slice::new(Interface::Mirror, ggx) }
     }
 
     /// Isotropic, with the table at hand.
     #[inline]
     pub fn isotropic(alpha: f32, table: &'static super::EnergyTable) -> Self {
         let a = alpha.clamp(super::MIN_ALPHA, 1.0);
-        Self { ggx: Ggx { ax: a, ay: a }, energy: Slice::isotropic(table, a) }
+        Self { surface: Ggx { ax: a, ay: a }, energy: Slice::isotropic(table, a) }
     }
 
-    /// Anisotropic, without a table of its own.
+    /// Anisotropic, without a table of its own; `table` is that of the isotropic ones.
     #[inline]
-    pub fn varying(alpha: [f32; 2], atlas: &'static Atlas) -> Self {
+    pub fn varying(alpha: [f32; 2], atlas: &'static Atlas, table: &'static super::EnergyTable) -> Self {
         let [ax, ay] = alpha.map(|a| a.clamp(super::MIN_ALPHA, 1.0));
         let ggx = Ggx { ax, ay };
-        Self { ggx, energy: Slice::anisotropic(atlas, ggx) }
+        Self { surface: ggx, energy: Slice::anisotropic(atlas, table, ggx) }
+    }
+}
+
+impl Micro<Beckmann> {
+    /// Beckmann's of roughness α along x and y, at least [`super::MIN_ALPHA`].
+    pub fn beckmann(alpha: [f32; 2]) -> Self {
+        let [ax, ay] = alpha.map(|a| a.clamp(super::MIN_ALPHA, 1.0));
+        Self { surface: Beckmann { ax, ay }, energy: Slice::new(Interface::BeckmannMirror, Ggx { ax, ay }) }
+    }
+
+    /// Beckmann's, isotropic, with the table at hand.
+    #[inline]
+    pub fn isotropic_beckmann(alpha: f32, table: &'static super::EnergyTable) -> Self {
+        let a = alpha.clamp(super::MIN_ALPHA, 1.0);
+        Self { surface: Beckmann { ax: a, ay: a }, energy: Slice::isotropic(table, a) }
+    }
+}
+
+impl<M> Micro<M> {
+    /// Normals and masking.
+    pub fn surface(&self) -> &M {
+        &self.surface
     }
 
     /// Its energy table at this roughness.
@@ -75,15 +111,15 @@ pub fn multiple_scattering(f: Spectrum, loss: f32) -> Spectrum {
     (f * f * (1.0 - loss)).div_or_zero(denominator)
 }
 
-impl RoughReflection {
+impl<M: Microsurface> RoughReflection<M> {
     /// Microsurface of this material.
-    pub fn new(micro: Micro, fresnel: Fresnel) -> Self {
+    pub fn new(micro: Micro<M>, fresnel: Fresnel) -> Self {
         Self::with(micro, fresnel, multiple_scattering(fresnel.average(), micro.energy.mean.loss))
     }
 
     /// The same with F_ms given: of a mixture of materials it is the mixture of theirs.
     #[inline]
-    pub fn with(micro: Micro, fresnel: Fresnel, f_ms: Spectrum) -> Self {
+    pub fn with(micro: Micro<M>, fresnel: Fresnel, f_ms: Spectrum) -> Self {
         Self { micro, fresnel, fit: fresnel.fit(), f_ms }
     }
 
@@ -101,8 +137,18 @@ impl RoughReflection {
         (single.max(Spectrum::ZERO), self.f_ms * e.loss)
     }
 
-    /// Directional albedo; of metals by the fit of their Fresnel term (a few per cent).
+    /// Directional albedo.
     pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
+        let energy = &self.micro.energy;
+        match self.fresnel.angular() {
+            None => self.fitted_albedo(wo),
+            Some(series) => energy.reflected(&series, wo).max(Spectrum::ZERO) + self.f_ms * energy.at(wo).loss,
+        }
+    }
+
+    /// Directional albedo by the fit of the Fresnel term (of metals and films within a few per cent): quicker, and enough
+    /// to choose by.
+    pub(super) fn fitted_albedo(&self, wo: Vec3) -> Spectrum {
         let (single, multiple) = self.shares(self.micro.energy.at(wo));
         single + multiple
     }
@@ -121,16 +167,16 @@ impl RoughReflection {
     /// f and density for directions above the horizon.
     #[inline]
     fn eval_above(&self, wo: Vec3, wi: Vec3, through: bool) -> (Spectrum, f32) {
-        let Micro { ggx, energy } = &self.micro;
+        let Micro { surface, energy } = &self.micro;
         // o·h = |o + i|/2 = i·h: the same for both, and nothing cancels.
         let (h, cos) = half_vector(wo, wi);
         let (e_o, e_i) = (energy.at(wo), energy.at(wi));
         let q = self.multiple_probability(e_o, through);
         let (f, f_ms) = (self.fresnel.eval(cos), self.f_ms);
         let (f, f_ms) = if through { (Spectrum::ONE - f, Spectrum::ONE - f_ms) } else { (f, f_ms) };
-        let single = f * (0.25 * ggx.d(h) * ggx.g2_over_cosines(wo, wi));
+        let single = f * (0.25 * surface.d(h) * surface.g2_over_cosines(wo, wi));
         let multiple = f_ms * (FRAC_1_PI * e_o.loss * e_i.loss / energy.mean.loss);
-        let pdf = (1.0 - q) * 0.25 * ggx.visible_over_cosine(wo, h) + q * energy.pdf(wi.z);
+        let pdf = (1.0 - q) * 0.25 * surface.visible_over_cosine(wo, h) + q * energy.pdf(wi.z);
         (single + multiple, pdf)
     }
 
@@ -157,7 +203,7 @@ impl RoughReflection {
             let wi = self.micro.energy.sample(u);
             return Some(Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z)));
         }
-        let wi = reflect(o, self.micro.ggx.sample_visible(o, u));
+        let wi = reflect(o, self.micro.surface.sample_visible(o, u));
         (wi.z > 0.0).then(|| Vec3::new(wi.x, wi.y, wi.z.copysign(wo.z)).normalize())
     }
 }
@@ -172,6 +218,11 @@ impl RoughThin {
     /// Directional albedo.
     pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
         self.tint * (Spectrum::ONE - self.coat.albedo(wo)).max(Spectrum::ZERO)
+    }
+
+    /// The same by [`RoughReflection::fitted_albedo`].
+    pub(super) fn fitted_albedo(&self, wo: Vec3) -> Spectrum {
+        self.tint * (Spectrum::ONE - self.coat.fitted_albedo(wo)).max(Spectrum::ZERO)
     }
 
     /// f \[1/sr\] and density \[1/sr\] of `wi`; nothing on the side of `wo`.

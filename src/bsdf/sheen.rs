@@ -58,7 +58,7 @@ type Rule = [(f64, f64); 32];
 
 struct Tables {
     /// (σ, ⁴√E): E falls by many powers of ten towards the normal.
-    grid: Grid,
+    grid: Grid<Vec4>,
     /// For each roughness and view: densities of x = √μ at its nodes, and their running integral.
     draws: Vec<[[f32; INTERVALS + 1]; 2]>,
 }

@@ -67,6 +67,16 @@ pub fn specimens() -> Vec<Specimen> {
         bsdf.push(Lobe::ThinTransmission(ThinTransmission { fresnel, tint: Spectrum::ONE }), 1.0, 0.7);
         bsdf
     });
+    all.add("oren-nayar white", true, || Bsdf::single(Lobe::Eon(Eon::new(Spectrum::ONE, 1.0))));
+    all.add("oren-nayar", false, move || Bsdf::single(Lobe::Eon(Eon::new(grey, 0.5))));
+    all.add("phong n 20", false, move || Bsdf::single(Lobe::Phong(Phong { reflectance: grey, exponent: 20.0 })));
+    all.add("cook-torrance white α 0.4", true, || cook_torrance(0.4, Fresnel::ONE));
+    all.add("cook-torrance gold α 0.15", false, || cook_torrance(0.15, gold()));
+    all.add("film on metal α 0.2", false, move || metal([0.2; 2], Fresnel::under_film(FILM, 1.0, grey, 1.0)));
+    all.add("film on white α 0.2", true, || filmed_white(Some(0.2)));
+    let glass = FilmedDielectric { eta: 1.5, tint: Spectrum::ONE, film: FILM, share: 1.0 };
+    all.add("smooth dielectric under film", true, move || Bsdf::single(Lobe::FilmedDielectric(glass)));
+    all.add("film on white, smooth", true, || filmed_white(None));
 
     let copper = Spectrum::from_rgb([0.2, 0.1, 0.04]);
     all.add("coated coloured", false, move || coated([0.3; 2], copper, grey));
@@ -88,7 +98,10 @@ pub fn specimens() -> Vec<Specimen> {
     all.add("turned white conductor α [0.15, 0.6]", true, || {
         let mut turned = Bsdf::new();
         let frame = Frame::from_z_tangent(Vec3::Z, Vec3::new(0.5, -0.8, 0.0), 1.0);
-        let lobe = RoughReflection::new(Micro::varying([0.15, 0.6], Atlas::get()), Fresnel::ONE);
+        let lobe = RoughReflection::new(
+            Micro::varying([0.15, 0.6], Atlas::get(), EnergyTable::isotropic(Interface::Mirror)),
+            Fresnel::ONE,
+        );
         turned.push_in(frame, Lobe::RoughReflection(lobe), 1.0, 1.0);
         turned
     });
@@ -160,6 +173,29 @@ fn coated(alpha: [f32; 2], f0: Spectrum, base: Spectrum) -> Bsdf {
     bsdf.push(Lobe::RoughReflection(RoughReflection::with(micro, fresnel, f_ms)), 1.0, 0.4);
     bsdf.push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), 1.0, 0.6);
     bsdf
+}
+
+/// Two fringes from normal to grazing incidence.
+const FILM: ThinFilm = ThinFilm { eta: 1.4, thickness: 550.0 };
+
+/// A white base under a dielectric coat under a film.
+fn filmed_white(alpha: Option<f32>) -> Bsdf {
+    let (f0, micro) = (Spectrum::splat(0.04), alpha.map(|a| Micro::new([a; 2])));
+    let fresnel = Fresnel::under_film(FILM, 1.0, f0, 1.0);
+    let f_ms = multiple_scattering(fresnel.average(), micro.map_or(0.0, |m| m.energy().mean.loss));
+    let coat = Coat { f0, f90: Spectrum::ONE, f_ms, energy: micro.map(|m| *m.energy()) };
+    let mut bsdf = Bsdf::new();
+    let reflection = match micro {
+        None => Lobe::Mirror(Mirror { fresnel }),
+        Some(micro) => Lobe::RoughReflection(RoughReflection::with(micro, fresnel, f_ms)),
+    };
+    bsdf.push(reflection, 1.0, 0.4);
+    bsdf.push(Lobe::CoupledDiffuse(CoupledDiffuse::under(Spectrum::ONE, coat, fresnel)), 1.0, 0.6);
+    bsdf
+}
+
+fn cook_torrance(alpha: f32, fresnel: Fresnel) -> Bsdf {
+    Bsdf::single(Lobe::CookTorrance(RoughReflection::new(Micro::beckmann([alpha; 2]), fresnel)))
 }
 
 /// A diffuse base under a smooth coat.

@@ -29,6 +29,20 @@ pub enum Model {
         /// Albedo ρ, linear RGB in [0, 1].
         reflectance: ColorParam,
     },
+    /// Rough diffuse, after Oren & Nayar: EON (Portsmouth, Kutz & Hill 2024).
+    RoughDiffuse {
+        /// Parameter ρ, the albedo of a smooth one, linear RGB in [0, 1].
+        reflectance: ColorParam,
+        /// In [0, 1]; 0: Lambert.
+        roughness: ScalarParam,
+    },
+    /// Phong's lobe, normalised.
+    Phong {
+        /// Albedo at normal incidence, linear RGB in [0, 1].
+        reflectance: ColorParam,
+        /// Exponent of the cosine, at least 0.
+        exponent: f32,
+    },
     /// Perfect mirror of constant reflectance.
     Mirror {
         /// Share reflected, linear RGB.
@@ -50,10 +64,19 @@ pub enum Model {
         /// 0: smooth.
         roughness: Roughness,
     },
+    /// Cook and Torrance's microfacets: Beckmann's distribution of normals, and else as a conductor.
+    CookTorrance {
+        /// Its reflectance over angle.
+        fresnel: Fresnel,
+        /// 0: smooth.
+        roughness: Roughness,
+    },
     /// Constant-weight mixture, f = Σ wᵢ fᵢ; the weights sum to at most 1 (the rest absorbs).
     Mix(Vec<(f32, Model)>),
     /// glTF's metallic-roughness model with the extensions honoured.
     MetallicRoughness(Box<MetallicRoughness>),
+    /// glTF's KHR_materials_pbrSpecularGlossiness.
+    SpecularGlossiness(Box<SpecularGlossiness>),
     /// Scatters nothing: black (emitters, unlit).
     Absorb,
 }
@@ -80,6 +103,8 @@ pub enum Fresnel {
 pub enum Roughness {
     /// Perceptual roughness r in [0, 1]: α = r² both ways. α below 1e-4 is a smooth interface.
     Perceptual(ScalarParam),
+    /// Glossiness g in [0, 1]: the perceptual roughness is 1 − g.
+    Glossiness(ScalarParam),
     /// α along the tangent and the bitangent, constant.
     Alpha([f32; 2]),
     /// KHR_materials_anisotropy: α = mix(r², 1, strength²) along the direction, r² across it.
@@ -112,6 +137,32 @@ pub struct MetallicRoughness {
     pub layers: Layers,
     /// KHR_materials_diffuse_transmission.
     pub diffuse_transmission: Option<DiffuseTransmission>,
+    /// KHR_materials_iridescence.
+    pub iridescence: Option<Iridescence>,
+}
+
+/// KHR_materials_pbrSpecularGlossiness: a diffuse base under GGX with Schlick's Fresnel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SpecularGlossiness {
+    /// Albedo of the base.
+    pub diffuse: ColorParam,
+    /// Reflectance at normal incidence.
+    pub specular: ColorParam,
+    /// 1 − perceptual roughness.
+    pub glossiness: ScalarParam,
+}
+
+/// KHR_materials_iridescence: a film whose two faces interfere lies on the surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iridescence {
+    /// Share of the surface that is under the film.
+    pub factor: ScalarParam,
+    /// Index of refraction of the film, at least 1.
+    pub ior: f32,
+    /// Thickness \[nm\] where the texture is 0, and where it is 1 or there is none.
+    pub thickness: [f32; 2],
+    /// What the thickness is interpolated by: a texture and its channel.
+    pub thickness_texture: Option<(TextureRef, usize)>,
 }
 
 /// KHR_materials_transmission.
@@ -233,16 +284,23 @@ impl Model {
     /// All its colours.
     fn colors_mut(&mut self) -> Vec<&mut ColorParam> {
         match self {
-            Self::Diffuse { reflectance } | Self::Mirror { reflectance } => vec![reflectance],
+            Self::Diffuse { reflectance }
+            | Self::RoughDiffuse { reflectance, .. }
+            | Self::Phong { reflectance, .. }
+            | Self::Mirror { reflectance } => vec![reflectance],
             Self::Dielectric { tint, .. } => vec![tint],
-            Self::Conductor { fresnel: Fresnel::Schlick { f0 }, .. } => vec![f0],
-            Self::Conductor { fresnel: Fresnel::Complex { .. }, .. } | Self::Absorb => Vec::new(),
+            Self::Conductor { fresnel, .. } | Self::CookTorrance { fresnel, .. } => match fresnel {
+                Fresnel::Schlick { f0 } => vec![f0],
+                Fresnel::Complex { .. } => Vec::new(),
+            },
+            Self::Absorb => Vec::new(),
             Self::Mix(parts) => parts.iter_mut().flat_map(|(_, model)| model.colors_mut()).collect(),
             Self::MetallicRoughness(m) => {
                 let sheen = m.layers.sheen.as_mut().map(|sheen| &mut sheen.color);
                 let through = m.diffuse_transmission.as_mut().map(|t| &mut t.color);
                 [&mut m.base_color, &mut m.specular_color].into_iter().chain(sheen).chain(through).collect()
             }
+            Self::SpecularGlossiness(m) => vec![&mut m.diffuse, &mut m.specular],
         }
     }
 }

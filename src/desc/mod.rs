@@ -34,8 +34,8 @@ pub use interior::{Dispersion, Interior, absorption};
 pub use layers::{Anisotropy, Clearcoat, Layers, Sheen};
 pub use load::{Options, load, load_with};
 pub use material::{
-    Alpha, ColorParam, DiffuseTransmission, Emission, Fresnel, Material, MetallicRoughness, Model, NormalMap,
-    Roughness, ScalarParam, Sides, Transmission,
+    Alpha, ColorParam, DiffuseTransmission, Emission, Fresnel, Iridescence, Material, MetallicRoughness, Model,
+    NormalMap, Roughness, ScalarParam, Sides, SpecularGlossiness, Transmission,
 };
 pub use settings::{Filter, Integrator, RenderSettings, SamplerKind, Strategy, Tonemap};
 pub use shape::{Mesh, Object, Shape};

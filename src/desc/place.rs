@@ -78,12 +78,18 @@ fn shift(material: &mut Material, by: usize) {
 
 fn model(m: &mut Model, by: usize) {
     match m {
-        Model::Diffuse { reflectance } | Model::Mirror { reflectance } => color(reflectance, by),
+        Model::Diffuse { reflectance } | Model::Mirror { reflectance } | Model::Phong { reflectance, exponent: _ } => {
+            color(reflectance, by);
+        }
+        Model::RoughDiffuse { reflectance, roughness } => {
+            color(reflectance, by);
+            scalar(roughness, by);
+        }
         Model::Dielectric { ior: _, roughness: r, tint } => {
             roughness(r, by);
             color(tint, by);
         }
-        Model::Conductor { fresnel, roughness: r } => {
+        Model::Conductor { fresnel, roughness: r } | Model::CookTorrance { fresnel, roughness: r } => {
             roughness(r, by);
             if let Fresnel::Schlick { f0 } = fresnel {
                 color(f0, by);
@@ -103,6 +109,17 @@ fn model(m: &mut Model, by: usize) {
                 scalar(&mut through.factor, by);
                 color(&mut through.color, by);
             }
+            if let Some(film) = &mut m.iridescence {
+                scalar(&mut film.factor, by);
+                if let Some((texture, _)) = &mut film.thickness_texture {
+                    texture.texture += by;
+                }
+            }
+        }
+        Model::SpecularGlossiness(m) => {
+            color(&mut m.diffuse, by);
+            color(&mut m.specular, by);
+            scalar(&mut m.glossiness, by);
         }
         Model::Absorb => {}
     }
@@ -121,7 +138,7 @@ fn scalar(s: &mut ScalarParam, by: usize) {
 }
 
 fn roughness(r: &mut Roughness, by: usize) {
-    if let Roughness::Perceptual(s) = r {
+    if let Roughness::Perceptual(s) | Roughness::Glossiness(s) = r {
         scalar(s, by);
     }
 }

@@ -1,14 +1,25 @@
-//! Mirror, dielectric, conductor.
+//! Mirror, dielectric, conductor, rough diffuse, Phong.
 
 use super::param::{self, Point};
 use super::roughness::{Microsurface, RoughInterface};
-use crate::bsdf::{Fresnel, Lobe, Mirror, RoughReflection, SmoothDielectric};
+use crate::bsdf::{Eon, Fresnel, Lobe, Mirror, Phong, RoughReflection, SmoothDielectric};
 use crate::desc::{self, ColorParam};
 use crate::spectrum::Spectrum;
 
 /// A mirror of this reflectance at every angle.
 pub(super) fn mirror(reflectance: Spectrum) -> Lobe {
     Lobe::Mirror(Mirror { fresnel: Fresnel::schlick(reflectance, reflectance) })
+}
+
+/// Diffuse, rough or not.
+pub(super) fn diffuse(reflectance: Spectrum, roughness: f32) -> Lobe {
+    if roughness > 0.0 { Lobe::Eon(Eon::new(reflectance, roughness)) } else { Lobe::lambert(reflectance) }
+}
+
+/// Phong's lobe.
+pub(super) fn phong(reflectance: Spectrum, exponent: f32) -> Lobe {
+    let exponent = if exponent > 0.0 { exponent.min(f32::MAX) } else { 0.0 };
+    Lobe::Phong(Phong { reflectance, exponent })
 }
 
 /// Interface between dielectrics.
@@ -47,36 +58,61 @@ pub(super) struct Conductor {
     micro: Microsurface,
 }
 
+/// Reflectance over the angle.
 #[derive(Clone, Debug)]
-enum Reflectance {
+pub(super) enum Reflectance {
+    /// The same everywhere, and exact.
     Fixed(Fresnel),
+    /// Reflectance at normal incidence.
     Schlick(ColorParam),
+}
+
+impl Reflectance {
+    pub(super) fn new(fresnel: &desc::Fresnel) -> Self {
+        let lanes = |rgb: &[f32; 3]| Spectrum::from_rgb(*rgb).0;
+        match fresnel {
+            desc::Fresnel::Complex { eta, k } => Self::Fixed(Fresnel::complex(lanes(eta), lanes(k))),
+            desc::Fresnel::Schlick { f0 } => Self::Schlick(*f0),
+        }
+    }
+
+    pub(super) fn is_constant(&self) -> bool {
+        match self {
+            Self::Fixed(_) => true,
+            Self::Schlick(f0) => param::is_constant(f0),
+        }
+    }
+
+    /// Its energy is summed by a series.
+    pub(super) fn is_series(&self) -> bool {
+        matches!(self, Self::Fixed(_))
+    }
+
+    #[inline]
+    pub(super) fn at(&self, at: Point) -> Fresnel {
+        match self {
+            Self::Fixed(fresnel) => *fresnel,
+            Self::Schlick(f0) => Fresnel::schlick(param::share(f0, at), Spectrum::ONE),
+        }
+    }
 }
 
 impl Conductor {
     pub(super) fn new(fresnel: &desc::Fresnel, roughness: desc::Roughness) -> Self {
-        let lanes = |rgb: &[f32; 3]| Spectrum::from_rgb(*rgb).0;
-        let reflectance = match fresnel {
-            desc::Fresnel::Complex { eta, k } => Reflectance::Fixed(Fresnel::complex(lanes(eta), lanes(k))),
-            desc::Fresnel::Schlick { f0 } => Reflectance::Schlick(*f0),
-        };
-        Self { reflectance, micro: Microsurface::new(roughness) }
+        let (reflectance, micro) = (Reflectance::new(fresnel), Microsurface::new(roughness));
+        if reflectance.is_series() {
+            micro.prepare_series();
+        }
+        Self { reflectance, micro }
     }
 
     pub(super) fn is_constant(&self) -> bool {
-        let colour = match &self.reflectance {
-            Reflectance::Fixed(_) => true,
-            Reflectance::Schlick(f0) => param::is_constant(f0),
-        };
-        colour && self.micro.is_constant()
+        self.reflectance.is_constant() && self.micro.is_constant()
     }
 
     #[inline]
     pub(super) fn lobe(&self, at: Point) -> Lobe {
-        let fresnel = match &self.reflectance {
-            Reflectance::Fixed(fresnel) => *fresnel,
-            Reflectance::Schlick(f0) => Fresnel::schlick(param::share(f0, at), Spectrum::ONE),
-        };
+        let fresnel = self.reflectance.at(at);
         match self.micro.at(at) {
             None => Lobe::Mirror(Mirror { fresnel }),
             Some(micro) => Lobe::RoughReflection(RoughReflection::new(micro, fresnel)),

@@ -25,6 +25,13 @@ fn index(model: &Model) -> Option<f32> {
         Model::Dielectric { ior, .. } => valid(*ior),
         Model::MetallicRoughness(m) => valid(m.ior).filter(|_| m.encloses()),
         Model::Mix(parts) => parts.iter().filter(|(weight, _)| *weight > 0.0).find_map(|(_, part)| index(part)),
-        Model::Diffuse { .. } | Model::Mirror { .. } | Model::Conductor { .. } | Model::Absorb => None,
+        Model::Diffuse { .. }
+        | Model::RoughDiffuse { .. }
+        | Model::Phong { .. }
+        | Model::Mirror { .. }
+        | Model::Conductor { .. }
+        | Model::CookTorrance { .. }
+        | Model::SpecularGlossiness(_)
+        | Model::Absorb => None,
     }
 }

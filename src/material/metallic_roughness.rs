@@ -1,5 +1,5 @@
-//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular, _transmission and
-//! _diffuse_transmission.
+//! glTF 2.0's metallic-roughness model (appendix B) with KHR_materials_ior, _specular, _transmission,
+//! _diffuse_transmission and _iridescence.
 //!
 //! The specification's mixture is kept, its energy is not: `fresnel_mix` as written reflects more than it receives at
 //! grazing angles, so the diffuse base is coupled to the coat by [`CoupledDiffuse`]. With m metalness, t transmission
@@ -10,8 +10,13 @@
 //!   (1 − m)(1 − t) d with its own colour for c;
 //! * (1 − m) t c through the dielectric coat, unbent: thin walls; or, with a volume, the exact refracting interface in
 //!   place of (1 − m) t of the coat and the base, tinted by c.
+//!
+//! Under a film of KHR_materials_iridescence, F is Airy's sum over a base of index (1 + √F₀)/(1 − √F₀), of the dielectric
+//! and of the metal, and not Schlick's; the refracting interface of a volume shares out between reflection and refraction as
+//! the film does.
 
 use super::classic::Dielectric;
+use super::iridescence::Covering;
 use super::param::{self, Point};
 use super::roughness::Microsurface;
 use crate::bsdf::{
@@ -42,7 +47,11 @@ impl MetallicRoughness {
         // An index of 0 stands for infinity.
         let f0 = if n > 0.0 { normal_reflectance(n) } else { 1.0 };
         let interface = desc.refracts().then(|| Dielectric::new(n, roughness, desc.base_color));
-        Self { desc: desc.clone(), micro: Microsurface::new(roughness), f0, interface }
+        let micro = Microsurface::new(roughness);
+        if desc.iridescence.is_some() {
+            micro.prepare_series();
+        }
+        Self { desc: desc.clone(), micro, f0, interface }
     }
 
     pub(super) fn is_constant(&self) -> bool {
@@ -58,6 +67,7 @@ impl MetallicRoughness {
                 .is_none_or(|t| t.factor.texture.is_none() && param::is_constant(&t.color))
             && param::is_constant(&d.base_color)
             && param::is_constant(&d.specular_color)
+            && d.iridescence.as_ref().is_none_or(Covering::is_constant)
     }
 
     /// Hands the lobes and their factors to `push`.
@@ -67,15 +77,21 @@ impl MetallicRoughness {
         let metallic = param::scalar(&d.metallic, at);
         let transmission = d.transmission.as_ref().map_or(0.0, |t| param::scalar(&t.factor, at));
         let specular = param::scalar(&d.specular, at);
-        let f0 = at.eta.map_or(self.f0, normal_reflectance);
-        let f0 = (param::color(&d.specular_color, at) * f0).min(Spectrum::ONE) * specular;
+        let f0_full = at.eta.map_or(self.f0, normal_reflectance);
+        let f0_full = (param::color(&d.specular_color, at) * f0_full).min(Spectrum::ONE);
+        let f0 = f0_full * specular;
         let f90 = Spectrum::splat(specular);
         let micro = self.micro.at(at);
+        let film = Covering::at(d.iridescence.as_ref(), at);
 
         // The refracting interface takes its share of everything that is not metal.
         let dielectric = match &self.interface {
             Some(interface) => {
-                push(interface.lobe(at), (1.0 - metallic) * transmission);
+                let lobe = match &film {
+                    Some(film) if d.ior >= 1.0 => film.interface(at.eta.unwrap_or(d.ior), base, micro),
+                    _ => interface.lobe(at),
+                };
+                push(lobe, (1.0 - metallic) * transmission);
                 (1.0 - metallic) * (1.0 - transmission)
             }
             None => 1.0 - metallic,
@@ -85,9 +101,15 @@ impl MetallicRoughness {
         // Fresnel terms and multiple scattering of the mixture are the mixtures of theirs: both are linear in f.
         let loss = micro.map_or(0.0, |m| m.energy().mean.loss);
         let f_ms = |f: Fresnel| multiple_scattering(f.average(), loss);
-        let coat = Fresnel::schlick(f0, f90);
-        let metal = Fresnel::schlick(base, Spectrum::ONE);
-        let mixed = Fresnel::schlick(f0 * dielectric + base * metallic, f90 * dielectric + Spectrum::splat(metallic));
+        let (coat, metal) = match &film {
+            None => (Fresnel::schlick(f0, f90), Fresnel::schlick(base, Spectrum::ONE)),
+            // What is not there is not summed.
+            Some(film) => {
+                let there = |share: f32| f32::from(share > 0.0);
+                (film.over(f0_full, specular * there(dielectric)), film.over(base, there(metallic)))
+            }
+        };
+        let mixed = coat.mixed(dielectric, &metal, metallic);
         let mixed_f_ms = f_ms(coat) * dielectric + f_ms(metal) * metallic;
         match micro {
             _ if dielectric * specular + metallic == 0.0 => (),
@@ -96,7 +118,11 @@ impl MetallicRoughness {
         }
 
         if dielectric * beneath > 0.0 {
-            let coat = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
+            let under = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
+            let coupled = |color| match film {
+                None => CoupledDiffuse::new(color, under),
+                Some(_) => CoupledDiffuse::under(color, under, coat),
+            };
             let mut reflects = 1.0;
             if let Some(t) = &d.diffuse_transmission {
                 let (share, color) = (param::scalar(&t.factor, at), param::share(&t.color, at));
@@ -104,12 +130,12 @@ impl MetallicRoughness {
                 if share > 0.0 && !color.is_black() {
                     // Beside a refracting interface the radiance behind is that of its index.
                     let eta = if self.interface.is_some() { at.eta.unwrap_or(d.ior) } else { 1.0 };
-                    let lobe = DiffuseTransmission { base: CoupledDiffuse::new(color, coat), eta };
+                    let lobe = DiffuseTransmission { base: coupled(color), eta };
                     push(Lobe::DiffuseTransmission(lobe), dielectric * beneath * share);
                 }
             }
             if reflects > 0.0 && !base.is_black() {
-                push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), dielectric * beneath * reflects);
+                push(Lobe::CoupledDiffuse(coupled(base)), dielectric * beneath * reflects);
             }
         }
         if dielectric * through > 0.0 && !base.is_black() {

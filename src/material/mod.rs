@@ -1,28 +1,34 @@
 //! Materials: what the author wrote, compiled, and at a hit turned into lobes.
 //!
-//! One file a model: `classic` (mirror, dielectric, conductor) and `metallic_roughness` (glTF), over which `layered` lays
-//! sheen and clear coat; `param` reads
-//! parameters and textures, `roughness` holds microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
+//! One file a model: `classic` (mirror, dielectric, conductor, rough diffuse, Phong), `cook_torrance`, `metallic_roughness`
+//! (glTF, with the film of `iridescence`), over which `layered` lays sheen and clear coat, and `specular_glossiness` (its
+//! forerunner); `interior` is what lies behind a surface, `param` reads parameters and textures, `roughness` holds
+//! microsurfaces. What does not vary over the surface is made into lobes once, at compile time.
 
 mod classic;
+mod cook_torrance;
 mod interior;
+mod iridescence;
 mod layered;
 mod metallic_roughness;
 pub mod param;
 mod roughness;
+mod specular_glossiness;
 
 use crate::bsdf::{Bsdf, Lobe};
-use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap};
+use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap, ScalarParam};
 use crate::math::Frame;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use classic::{Conductor, Dielectric};
+use cook_torrance::CookTorrance;
 use glam::{Vec2, Vec3, Vec4};
 pub use interior::interior;
 use layered::{Layered, Lie};
 use metallic_roughness::MetallicRoughness;
 use param::Point;
+use specular_glossiness::SpecularGlossiness;
 
 /// A material ready for tracing.
 #[derive(Clone, Debug)]
@@ -55,6 +61,10 @@ enum Part {
     Conductor(Conductor),
     MetallicRoughness(Box<MetallicRoughness>),
     Layered(Box<Layered>),
+    RoughDiffuse(ColorParam, ScalarParam),
+    Phong(ColorParam, f32),
+    CookTorrance(CookTorrance),
+    SpecularGlossiness(Box<SpecularGlossiness>),
 }
 
 impl Part {
@@ -67,6 +77,10 @@ impl Part {
             Self::MetallicRoughness(m) => m.is_constant(),
             // It keeps what is constant itself, with its layers.
             Self::Layered(_) => false,
+            Self::RoughDiffuse(c, r) => param::is_constant(c) && r.texture.is_none(),
+            Self::Phong(c, _) => param::is_constant(c),
+            Self::CookTorrance(c) => c.is_constant(),
+            Self::SpecularGlossiness(m) => m.is_constant(),
         }
     }
 
@@ -80,6 +94,10 @@ impl Part {
             Self::MetallicRoughness(m) => m.lobes(at, push),
             // Its lobes are nothing without their layers: `put` adds both.
             Self::Layered(_) => {}
+            Self::RoughDiffuse(c, r) => push(classic::diffuse(param::share(c, at), param::scalar(r, at)), 1.0),
+            Self::Phong(c, exponent) => push(classic::phong(param::share(c, at), *exponent), 1.0),
+            Self::CookTorrance(c) => push(c.lobe(at), 1.0),
+            Self::SpecularGlossiness(m) => m.lobes(at, push),
         }
     }
 
@@ -227,6 +245,7 @@ pub fn most_lobes(model: &desc::Model) -> usize {
             let through = [m.transmission.is_some(), m.diffuse_transmission.is_some()];
             2 + layers.into_iter().chain(through).map(usize::from).sum::<usize>()
         }
+        desc::Model::SpecularGlossiness(_) => 2,
         _ => 1,
     }
 }
@@ -247,6 +266,10 @@ fn flatten(model: &desc::Model, weight: f32, parts: &mut Vec<(f32, Part)>) {
             Part::MetallicRoughness(Box::new(MetallicRoughness::new(m)))
         }
         desc::Model::MetallicRoughness(m) => Part::Layered(Box::new(Layered::new(m))),
+        desc::Model::RoughDiffuse { reflectance, roughness } => Part::RoughDiffuse(*reflectance, *roughness),
+        desc::Model::CookTorrance { fresnel, roughness } => Part::CookTorrance(CookTorrance::new(fresnel, *roughness)),
+        desc::Model::Phong { reflectance, exponent } => Part::Phong(*reflectance, *exponent),
+        desc::Model::SpecularGlossiness(m) => Part::SpecularGlossiness(Box::new(SpecularGlossiness::new(m))),
     };
     if weight > 0.0 {
         parts.push((weight, part));

@@ -10,10 +10,14 @@ const SAME_INDEX: f32 = 2e-3;
 
 /// α along x and y at a point; `None` where the surface is smooth.
 #[inline]
-fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
+pub(super) fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
     let alpha = match roughness {
         Roughness::Perceptual(r) => {
             let r = param::scalar(r, at);
+            [r * r; 2]
+        }
+        Roughness::Glossiness(g) => {
+            let r = 1.0 - param::scalar(g, at);
             [r * r; 2]
         }
         Roughness::Alpha(a) => *a,
@@ -26,17 +30,18 @@ fn alpha(roughness: &Roughness, at: Point) -> Option<[f32; 2]> {
 }
 
 /// α where it is the same everywhere.
-enum Fixed {
+pub(super) enum Fixed {
     Smooth,
     Rough([f32; 2]),
 }
 
-fn fixed(roughness: &Roughness) -> Option<Fixed> {
+/// α ahead of hits; `None` where it varies.
+pub(super) fn fixed(roughness: &Roughness) -> Option<Fixed> {
     match roughness {
-        Roughness::Perceptual(r) if r.texture.is_some() => None,
         Roughness::Stretched { roughness, strength } if roughness.texture.is_some() || strength.texture.is_some() => {
             None
         }
+        Roughness::Perceptual(r) | Roughness::Glossiness(r) if r.texture.is_some() => None,
         _ => Some(param::nowhere(|at| alpha(roughness, at)).map_or(Fixed::Smooth, Fixed::Rough)),
     }
 }
@@ -51,25 +56,35 @@ pub(super) enum Microsurface {
     /// Of a texture.
     Varying(Roughness, &'static EnergyTable),
     /// The same with two roughnesses.
-    Stretched(Roughness, &'static Atlas),
+    Stretched(Roughness, &'static Atlas, &'static EnergyTable),
 }
 
 impl Microsurface {
     pub(super) fn new(roughness: Roughness) -> Self {
+        let isotropic = || EnergyTable::isotropic(Interface::Mirror);
         match (fixed(&roughness), &roughness) {
             (Some(Fixed::Smooth), _) => Self::Smooth,
             // One atlas serves all materials; a table each would take a third of a second each.
             (Some(Fixed::Rough([a, b])), Roughness::Stretched { .. }) if a != b => {
-                Self::Fixed(Micro::varying([a, b], Atlas::get()))
+                Self::Fixed(Micro::varying([a, b], Atlas::get(), isotropic()))
             }
-            (None, Roughness::Stretched { .. }) => Self::Stretched(roughness, Atlas::get()),
+            (None, Roughness::Stretched { .. }) => Self::Stretched(roughness, Atlas::get(), isotropic()),
             (Some(Fixed::Rough(alpha)), _) => Self::Fixed(Micro::new(alpha)),
-            (None, _) => Self::Varying(roughness, EnergyTable::isotropic(Interface::Mirror)),
+            (None, _) => Self::Varying(roughness, isotropic()),
         }
     }
 
     pub(super) fn is_constant(&self) -> bool {
         !matches!(self, Self::Varying(..) | Self::Stretched(..))
+    }
+
+    /// Makes the tables for reflectances that are not Schlick's.
+    pub(super) fn prepare_series(&self) {
+        match self {
+            Self::Smooth => {}
+            Self::Fixed(micro) => micro.energy().prepare_series(),
+            Self::Varying(_, table) | Self::Stretched(_, _, table) => table.prepare_series(),
+        }
     }
 
     /// `None` where the surface is smooth.
@@ -79,7 +94,9 @@ impl Microsurface {
             Self::Smooth => None,
             Self::Fixed(micro) => Some(*micro),
             Self::Varying(roughness, table) => alpha(roughness, at).map(|[a, _]| Micro::isotropic(a, table)),
-            Self::Stretched(roughness, atlas) => alpha(roughness, at).map(|alpha| Micro::varying(alpha, atlas)),
+            Self::Stretched(roughness, atlas, table) => {
+                alpha(roughness, at).map(|alpha| Micro::varying(alpha, atlas, table))
+            }
         }
     }
 }

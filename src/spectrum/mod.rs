@@ -1,6 +1,8 @@
 //! Four lanes of spectral quantity. Today they carry linear RGB (ITU-R BT.709 primaries, D65 white); the fourth lane
 //! repeats green so that every lane always holds a valid number.
 
+pub mod observer;
+
 use glam::Vec4;
 use std::iter::Sum;
 use std::ops::{Add, AddAssign, Div, Mul, MulAssign, Sub};

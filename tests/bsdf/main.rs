@@ -3,6 +3,7 @@
 mod consistency;
 mod material;
 mod mixture;
+mod optics;
 
 use radianza::bsdf::{Bsdf, Transport};
 use radianza::glam::Vec3;

@@ -12,7 +12,7 @@ use radianza::texture::Textures;
 
 const WHITE: ColorParam = ColorParam::constant([1.0; 3]);
 
-fn surface() -> Surface {
+pub(crate) fn surface() -> Surface {
     Surface {
         p: Vec3::ZERO,
         p_error: Vec3::ZERO,
@@ -37,7 +37,7 @@ fn texture(uv_set: usize) -> TextureRef {
     TextureRef { texture: 0, uv_set, transform: Affine2::IDENTITY }
 }
 
-fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
+pub(crate) fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
     MetallicRoughness {
         base_color: WHITE,
         metallic: ScalarParam::constant(metallic),
@@ -48,10 +48,11 @@ fn gltf(metallic: f32, roughness: f32) -> MetallicRoughness {
         transmission: None,
         layers: Layers::default(),
         diffuse_transmission: None,
+        iridescence: None,
     }
 }
 
-fn compile(model: Model) -> Material {
+pub(crate) fn compile(model: Model) -> Material {
     Material::compile(&desc::Material::new("test", model))
 }
 

@@ -22,7 +22,7 @@ const NODES: [usize; 4] = [24, 16, 12, 7];
 #[derive(Debug)]
 pub struct Atlas {
     /// μ and azimuth; one for each pair of roughnesses.
-    grids: Grid,
+    grids: Grid<Vec4>,
     /// (ln loss, parts) averaged over the hemisphere.
     means: Vec<Vec4>,
 }

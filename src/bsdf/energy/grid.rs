@@ -1,13 +1,20 @@
-//! Smooth functions of two variables, four at a time: a grid of nodes with cubic interpolation.
+//! Smooth functions of two variables, four at a time or more: a grid of nodes with cubic interpolation.
 
-use glam::Vec4;
 use rayon::prelude::*;
+use std::ops::{Add, Mul};
+
+/// What can be interpolated: a vector.
+pub(in crate::bsdf) trait Value:
+    Copy + Default + Send + Add<Output = Self> + Mul<f32, Output = Self>
+{
+}
+impl<T: Copy + Default + Send + Add<Output = T> + Mul<f32, Output = T>> Value for T {}
 
 /// Values at nodes that are equidistant in both variables.
 #[derive(Debug)]
-pub(in crate::bsdf) struct Grid {
+pub(in crate::bsdf) struct Grid<T> {
     nx: usize,
-    nodes: Vec<Vec4>,
+    nodes: Vec<T>,
 }
 
 /// Four neighbouring nodes of one variable and the weights of the cubic through them.
@@ -49,32 +56,32 @@ impl Stencil {
 
     /// The cubic through four of the `values`.
     #[inline]
-    pub(in crate::bsdf) fn over(&self, values: &[Vec4]) -> Vec4 {
-        (0..4).map(|i| values[self.first as usize + i] * self.weights[i]).sum()
+    pub(in crate::bsdf) fn over<T: Value>(&self, values: &[T]) -> T {
+        (0..4).fold(T::default(), |sum, i| sum + values[self.first as usize + i] * self.weights[i])
     }
 }
 
-impl Grid {
+impl<T: Value> Grid<T> {
     /// Evaluates `f` at the `nx` × `ny` nodes, given as integers, on all cores.
-    pub(in crate::bsdf) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> Vec4 + Sync) -> Self {
+    pub(in crate::bsdf) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> T + Sync) -> Self {
         let nodes = (0..nx * ny).into_par_iter().map(|i| f(i % nx, i / nx)).collect();
         Self { nx, nodes }
     }
 
     /// Value at `x` in \[0, 1\] and the stencil `y` of the other variable.
     #[inline]
-    pub(in crate::bsdf) fn at(&self, x: f32, y: Stencil) -> Vec4 {
+    pub(in crate::bsdf) fn at(&self, x: f32, y: Stencil) -> T {
         self.with(Stencil::new(x, self.nx), y)
     }
 
     /// Value at the stencils of both variables.
     #[inline]
-    pub(in crate::bsdf) fn with(&self, x: Stencil, y: Stencil) -> Vec4 {
-        let mut sum = Vec4::ZERO;
+    pub(in crate::bsdf) fn with(&self, x: Stencil, y: Stencil) -> T {
+        let mut sum = T::default();
         for j in 0..4 {
             let row = &self.nodes[(y.first as usize + j) * self.nx + x.first as usize..][..4];
             let value = row[0] * x.weights[0] + row[1] * x.weights[1] + row[2] * x.weights[2] + row[3] * x.weights[3];
-            sum += value * y.weights[j];
+            sum = sum + value * y.weights[j];
         }
         sum
     }

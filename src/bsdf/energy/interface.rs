@@ -1,15 +1,20 @@
 //! Energy of single scattering in one direction, for the two interfaces that microfacets can be.
 
 use super::quadrature::Rule;
+use crate::bsdf::angular::{TERMS, polynomials};
 use crate::bsdf::fresnel::{dielectric, pow5};
 use crate::math::safe_sqrt;
 use glam::DVec3;
+use statrs::function::erf::erfc;
+use std::f64::consts::PI;
 
 /// What a microfacet is.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Interface {
     /// Reflects; the Fresnel term comes later, by its powers.
     Mirror,
+    /// The same, where normals are distributed as Beckmann has them.
+    BeckmannMirror,
     /// Reflects or refracts, exactly.
     Dielectric {
         /// Relative index η_t/η_i, seen from the side that the direction is on.
@@ -33,7 +38,7 @@ impl Interface {
     #[inline]
     pub(super) fn smooth_parts(self, mu: f32) -> [f32; 2] {
         match self {
-            Self::Mirror => {
+            Self::Mirror | Self::BeckmannMirror => {
                 let schlick = pow5(1.0 - mu);
                 [schlick, schlick * mu * (1.0 - mu)]
             }
@@ -46,45 +51,20 @@ impl Interface {
     #[inline]
     pub(super) fn critical(self) -> f32 {
         match self {
-            Self::Mirror => 0.0,
+            Self::Mirror | Self::BeckmannMirror => 0.0,
             Self::Dielectric { eta } => safe_sqrt((1.0 - eta) * (1.0 + eta)),
         }
     }
 
     /// Energy in the direction of cosine `mu` and azimuth `phi`, as a mean over the visible normals m
     /// (Heitz 2014, section 5.3).
-    ///
-    /// A direction i of reflection or refraction at m leaves with probability
-    /// w = G₂/G₁(o) = |i.z|(o.z + s(o)) / (s(o)|i.z| + s(i) o.z) on its own side of the surface, and never on the other.
     pub(super) fn integrate(self, rule: &Rule, mu: f32, phi: f64, alpha: [f32; 2]) -> Energy {
-        let mu = f64::from(mu).max(1e-9);
-        let r = (1.0 - mu * mu).max(0.0).sqrt();
-        let o = DVec3::new(r * phi.cos(), r * phi.sin(), mu);
-        let a = alpha.map(f64::from);
-        let stretch = |w: DVec3| DVec3::new(a[0] * w.x, a[1] * w.y, w.z).length();
-        let so = stretch(o);
-        let kept_and_lost = |i: DVec3, z: f64| {
-            if z <= 0.0 {
-                return (0.0, 1.0);
-            }
-            let si = stretch(i);
-            let d = so * z + si * o.z;
-            (z * (o.z + so) / d, o.z * (si - z) / d)
-        };
-        let reflected = |m: DVec3, c: f64| m * (2.0 * c) - o;
-
+        let seen = Seen::new(self, mu, phi, alpha);
+        let (o, a) = (seen.o, seen.a);
         let [loss, a, b] = match self {
-            Self::Mirror => rule.visible_mean(
-                o,
-                a,
-                |m| [reflected(m, o.dot(m)).z],
-                |m| {
-                    let c = o.dot(m).clamp(0.0, 1.0);
-                    let i = reflected(m, c);
-                    let (w, lost) = kept_and_lost(i, i.z);
-                    [lost, w * (1.0 - c).powi(5), w * c * (1.0 - c).powi(6)]
-                },
-            ),
+            Self::Mirror | Self::BeckmannMirror => {
+                seen.mirrored(rule, |c, w, lost| [lost, w * (1.0 - c).powi(5), w * c * (1.0 - c).powi(6)])
+            }
             Self::Dielectric { eta } => {
                 let eta = f64::from(eta);
                 // η cos θt, squared; and the height of the refracted direction.
@@ -96,12 +76,12 @@ impl Interface {
                     |m| {
                         let c = o.dot(m);
                         let g2 = inside(c);
-                        [reflected(m, c).z, g2, -refracted(m, c, g2.max(0.0).sqrt()).z]
+                        [Seen::reflected(o, m).z, g2, -refracted(m, c, g2.max(0.0).sqrt()).z]
                     },
                     |m| {
                         let c = o.dot(m).clamp(0.0, 1.0);
-                        let i = reflected(m, c);
-                        let (_, lost_r) = kept_and_lost(i, i.z);
+                        let i = Seen::reflected(o, m);
+                        let (_, lost_r) = seen.kept_and_lost(i, i.z);
                         let g2 = inside(c);
                         if g2 <= 0.0 {
                             return [lost_r, 0.0, 0.0];
@@ -110,7 +90,7 @@ impl Interface {
                         let (rs, rp) = ((c - g) / (c + g), (eta * eta * c - g) / (eta * eta * c + g));
                         let f = 0.5 * (rs * rs + rp * rp);
                         let t = refracted(m, c, g);
-                        let (w, lost_t) = kept_and_lost(t, -t.z);
+                        let (w, lost_t) = seen.kept_and_lost(t, -t.z);
                         [f * lost_r + (1.0 - f) * lost_t, (1.0 - f) * w, 0.0]
                     },
                 )
@@ -118,4 +98,86 @@ impl Interface {
         };
         Energy { loss: loss as f32, parts: [a as f32, b as f32] }
     }
+
+    /// Energy of single scattering whose facets reflect T_j(2√c − 1), for every j ([`crate::bsdf::Angular`]).
+    pub(super) fn moments(self, rule: &Rule, mu: f32, phi: f64, alpha: [f32; 2]) -> [f64; TERMS] {
+        Seen::new(self, mu, phi, alpha).mirrored(rule, |c, w, _| polynomials(c).map(|t| w * t))
+    }
+}
+
+/// A direction that looks at a microsurface.
+struct Seen {
+    o: DVec3,
+    a: [f64; 2],
+    /// s(o).
+    so: f64,
+    /// Λ(o) where normals are Beckmann's.
+    beckmann: Option<f64>,
+}
+
+impl Seen {
+    fn new(interface: Interface, mu: f32, phi: f64, alpha: [f32; 2]) -> Self {
+        let mu = f64::from(mu).max(1e-9);
+        let r = (1.0 - mu * mu).max(0.0).sqrt();
+        let (o, a) = (DVec3::new(r * phi.cos(), r * phi.sin(), mu), alpha.map(f64::from));
+        let beckmann = (interface == Interface::BeckmannMirror).then(|| beckmann_lambda(o, a));
+        Self { o, a, so: stretch(o, a), beckmann }
+    }
+
+    fn reflected(o: DVec3, m: DVec3) -> DVec3 {
+        m * (2.0 * o.dot(m)) - o
+    }
+
+    /// A direction i of reflection or refraction, of height `z` on its own side, leaves with probability
+    /// w = G₂/G₁(o) = |i.z|(o.z + s(o)) / (s(o)|i.z| + s(i) o.z), and never on the other side. Returns w and 1 − w.
+    fn kept_and_lost(&self, i: DVec3, z: f64) -> (f64, f64) {
+        if z <= 0.0 {
+            return (0.0, 1.0);
+        }
+        let si = stretch(i, self.a);
+        let d = self.so * z + si * self.o.z;
+        (z * (self.o.z + self.so) / d, self.o.z * (si - z) / d)
+    }
+
+    /// Mean over visible normals of g(c, w, 1 − w), c the cosine at the normal and w the probability that what it reflects
+    /// leaves.
+    fn mirrored<const C: usize>(&self, rule: &Rule, g: impl Fn(f64, f64, f64) -> [f64; C]) -> [f64; C] {
+        let height = |m: DVec3| [Self::reflected(self.o, m).z];
+        rule.visible_mean(self.o, self.a, height, |m| {
+            let (i, c) = (Self::reflected(self.o, m), self.o.dot(m).clamp(0.0, 1.0));
+            match self.beckmann {
+                None => {
+                    let (w, lost) = self.kept_and_lost(i, i.z);
+                    g(c, w, lost)
+                }
+                Some(lambda_o) => {
+                    let lambda_i = if i.z > 0.0 { beckmann_lambda(i, self.a) } else { f64::INFINITY };
+                    let w = (1.0 + lambda_o) / (1.0 + lambda_o + lambda_i);
+                    g(c, w, 1.0 - w).map(|x| x * self.beckmann_over_ggx(lambda_o, m))
+                }
+            }
+        })
+    }
+
+    /// Density of Beckmann's visible normals over that of GGX of the same α.
+    fn beckmann_over_ggx(&self, lambda_o: f64, m: DVec3) -> f64 {
+        let t2 = ((m.x / self.a[0]).powi(2) + (m.y / self.a[1]).powi(2)) / (m.z * m.z).max(1e-300);
+        let masking = (self.o.z + self.so) / (2.0 * self.o.z * (1.0 + lambda_o));
+        // With t the tangent of the stretched normal, D is e^(−t²) in place of 1/(1 + t²)².
+        if t2 < 700.0 { masking * (-t2).exp() * (1.0 + t2).powi(2) } else { 0.0 }
+    }
+}
+
+/// Λ of Beckmann's microsurface (Heitz 2014, eq. 72).
+fn beckmann_lambda(w: DVec3, a: [f64; 2]) -> f64 {
+    let slope = (a[0] * w.x).hypot(a[1] * w.y);
+    let x = w.z / slope;
+    if slope == 0.0 || x > 5.0 {
+        return 0.0;
+    }
+    0.5 * ((-x * x).exp() / (x * PI.sqrt()) - erfc(x))
+}
+
+fn stretch(w: DVec3, a: [f64; 2]) -> f64 {
+    DVec3::new(a[0] * w.x, a[1] * w.y, w.z).length()
 }

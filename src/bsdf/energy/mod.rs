@@ -15,6 +15,7 @@ mod atlas;
 mod grid;
 mod interface;
 mod mean;
+mod moments;
 mod quadrature;
 mod sampling;
 mod table;

@@ -1,8 +1,9 @@
 //! Tables of the energy over direction and roughness, computed once for each interface.
 
 use super::atlas::{Atlas, Pair};
-use super::grid::{Grid, Stencil};
+use super::grid::{Grid, Stencil, Value};
 use super::interface::{Energy, Interface};
+use super::moments::Moments;
 use super::quadrature::{Rule, gauss_legendre};
 use crate::bsdf::ggx::Ggx;
 use crate::math::sqr;
@@ -10,7 +11,7 @@ use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use std::f32::consts::FRAC_2_PI;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::{LazyLock, Mutex, PoisonError};
+use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 /// Nodes in μ; twice as many where there is a critical angle.
 const N_MU: usize = 48;
@@ -26,8 +27,12 @@ const LOG_MIN: f32 = -9.903_487;
 /// Energy over μ and α (isotropic), or over μ and azimuth for one pair of α.
 #[derive(Debug)]
 pub struct EnergyTable {
-    interface: Interface,
-    grid: Grid,
+    pub(super) interface: Interface,
+    /// The α that it is for, where it is not for all isotropic ones.
+    pub(super) anisotropic: Option<Ggx>,
+    /// Of series over the angle, where one has been asked for.
+    pub(super) moments: OnceLock<Moments>,
+    grid: Grid<Vec4>,
     /// (ln loss, parts) averaged over the hemisphere, at equidistant ln α; anisotropic tables have one.
     means: Vec<Vec4>,
 }
@@ -35,22 +40,17 @@ pub struct EnergyTable {
 /// A table at one roughness: what a lobe carries.
 #[derive(Clone, Copy, Debug)]
 pub struct Slice {
-    source: Source,
-    ggx: Ggx,
+    /// Of this microsurface; of isotropic ones where the atlas has the energies.
+    pub(super) table: &'static EnergyTable,
+    pub(super) ggx: Ggx,
+    row: Stencil,
+    /// Every pair of roughnesses, where there is no table of this one.
+    atlas: Option<(&'static Atlas, Pair)>,
     /// The larger α, squared, and ln(1 + 1/α²).
     pub(super) alpha2: f32,
     pub(super) log: f32,
     /// Cosine-weighted means over the hemisphere.
     pub mean: Energy,
-}
-
-/// Where energies are looked up.
-#[derive(Clone, Copy, Debug)]
-enum Source {
-    /// The row of a table.
-    Table(&'static EnergyTable, Stencil),
-    /// Every pair of roughnesses.
-    Atlas(&'static Atlas, Pair),
 }
 
 impl Slice {
@@ -72,22 +72,18 @@ impl Slice {
         Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, N_ALPHA), mean)
     }
 
-    /// Any pair of roughnesses of a mirroring microsurface, without a table of its own.
+    /// Any pair of roughnesses of a mirroring microsurface, without a table of its own; `table` is that of the isotropic ones.
     #[inline]
-    pub fn anisotropic(atlas: &'static Atlas, ggx: Ggx) -> Self {
+    pub fn anisotropic(atlas: &'static Atlas, table: &'static EnergyTable, ggx: Ggx) -> Self {
         let pair = Pair::new(ggx);
-        Self::of(Source::Atlas(atlas, pair), ggx, atlas.mean(&pair))
+        let slice = Self::with(table, ggx, Stencil::new(0.0, N_ALPHA), atlas.mean(&pair));
+        Self { atlas: Some((atlas, pair)), ..slice }
     }
 
     #[inline]
     fn with(table: &'static EnergyTable, ggx: Ggx, row: Stencil, mean: Energy) -> Self {
-        Self::of(Source::Table(table, row), ggx, mean)
-    }
-
-    #[inline]
-    fn of(source: Source, ggx: Ggx, mean: Energy) -> Self {
         let alpha2 = sqr(ggx.ax.max(ggx.ay));
-        Self { source, ggx, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
+        Self { table, ggx, row, atlas: None, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
     }
 
     /// Energies depend on the azimuth.
@@ -98,18 +94,25 @@ impl Slice {
     /// Energy of the direction `w`, on either side.
     #[inline]
     pub fn at(&self, w: Vec3) -> Energy {
-        let (table, row) = match &self.source {
-            Source::Table(table, row) => (table, *row),
-            Source::Atlas(atlas, pair) => return atlas.at(self.ggx, pair, w),
-        };
-        let mu = w.z.abs().min(1.0);
-        let (alpha, row) = if self.ggx.ax == self.ggx.ay {
-            (self.ggx.ax, row)
-        } else {
-            let (alpha, t) = azimuth(self.ggx, w);
-            (alpha, Stencil::new(t, N_AZIMUTH))
-        };
-        unpack(table.interface, table.grid.at(abscissa(table.interface, mu, alpha), row), mu, alpha)
+        if let Some((atlas, pair)) = &self.atlas {
+            return atlas.at(self.ggx, pair, w);
+        }
+        let (alpha, row) = self.place(w);
+        self.table.energy(w.z.abs().min(1.0), alpha, row)
+    }
+
+    /// The roughness that the azimuth of `w` meets, and the row of the table.
+    #[inline]
+    pub(super) fn place(&self, w: Vec3) -> (f32, Stencil) {
+        if self.ggx.ax == self.ggx.ay {
+            return (self.ggx.ax, self.row);
+        }
+        let (alpha, t) = azimuth(self.ggx, w);
+        match self.atlas {
+            None => (alpha, Stencil::new(t, N_AZIMUTH)),
+            // As if the roughness that the azimuth meets were all there is.
+            Some(_) => (alpha, Stencil::new(log_alpha(alpha), N_ALPHA)),
+        }
     }
 }
 
@@ -119,12 +122,19 @@ impl EnergyTable {
         Self::memoised(interface, None)
     }
 
+    /// Towards the cosine `mu`, in the row of a roughness.
+    #[inline]
+    pub(super) fn energy(&self, mu: f32, alpha: f32, row: Stencil) -> Energy {
+        unpack(self.interface, self.grid.at(abscissa(self.interface, mu, alpha), row), mu, alpha)
+    }
+
     fn memoised(interface: Interface, anisotropic: Option<Ggx>) -> &'static Self {
         type Tables = Mutex<HashMap<[u32; 3], &'static EnergyTable>>;
         static TABLES: LazyLock<Tables> = LazyLock::new(Default::default);
         let key = [
             match interface {
                 Interface::Mirror => 0,
+                Interface::BeckmannMirror => 1,
                 Interface::Dielectric { eta } => eta.to_bits(),
             },
             anisotropic.map_or(0, |g| g.ax.to_bits()),
@@ -144,44 +154,75 @@ impl EnergyTable {
         // Total reflection makes many more bends.
         let rule = if interface.critical() > 0.0 { Rule::new::<12, 24>() } else { Rule::new::<12, 16>() };
         let n_mu = if interface.critical() > 0.0 { 2 * N_MU } else { N_MU };
-        let node = |i: usize, phi: f64, alpha: f32, ggx: Ggx| {
-            let mu = invert(i as f32 / (n_mu - 1) as f32, |mu| abscissa(interface, mu, alpha));
-            pack(interface, interface.integrate(&rule, mu, phi, [ggx.ax, ggx.ay]), mu, alpha)
-        };
-        match anisotropic {
-            None => {
-                let grid = Grid::tabulate(n_mu, N_ALPHA, |i, j| {
-                    let alpha = alpha_of(j as f32 / (N_ALPHA - 1) as f32);
-                    node(i, 0.0, alpha, Ggx { ax: alpha, ay: alpha })
-                });
-                let mean = |k| {
-                    let alpha = alpha_of(k as f32 / (N_MEANS - 1) as f32);
-                    pack_mean(mean_over_cosine(interface, &grid, Stencil::new(log_alpha(alpha), N_ALPHA), alpha))
+        let place = |mu: f32, alpha: f32| abscissa(interface, mu, alpha);
+        let grid = nodes(n_mu, place, anisotropic, |mu, phi, alpha, a| {
+            pack(interface, interface.integrate(&rule, mu, phi, a), mu, alpha)
+        });
+        let means = means(anisotropic, |row, alpha| mean_over_cosine(interface, &grid, row, alpha));
+        let means = means.into_iter().map(pack_mean).collect();
+        Self { interface, anisotropic, moments: OnceLock::new(), grid, means }
+    }
+}
+
+/// A grid whose nodes are functions of μ, azimuth, the roughness that it meets, and α. `place` says where μ stands.
+pub(super) fn nodes<T: Value>(
+    n_mu: usize,
+    place: impl Fn(f32, f32) -> f32 + Sync,
+    anisotropic: Option<Ggx>,
+    f: impl Fn(f32, f64, f32, [f32; 2]) -> T + Sync,
+) -> Grid<T> {
+    let node = |i: usize, phi: f64, alpha: f32, a: [f32; 2]| {
+        f(invert(i as f32 / (n_mu - 1) as f32, |mu| place(mu, alpha)), phi, alpha, a)
+    };
+    match anisotropic {
+        None => Grid::tabulate(n_mu, N_ALPHA, |i, j| {
+            let alpha = alpha_of(j as f32 / (N_ALPHA - 1) as f32);
+            node(i, 0.0, alpha, [alpha; 2])
+        }),
+        Some(ggx) => {
+            let at = |phi: f64| azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
+            Grid::tabulate(n_mu, N_AZIMUTH, |i, j| {
+                // The azimuth of the j-th node.
+                let phi = match j {
+                    0 => 0.0,
+                    _ if j + 1 == N_AZIMUTH => FRAC_PI_2,
+                    _ => {
+                        let place = j as f32 / (N_AZIMUTH - 1) as f32;
+                        f64::from(invert(place, |t| at(f64::from(t) * FRAC_PI_2).1)) * FRAC_PI_2
+                    }
                 };
-                let means = (0..N_MEANS).map(mean).collect();
-                Self { interface, grid, means }
-            }
-            Some(ggx) => {
-                let at = |phi: f64| azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
-                let grid = Grid::tabulate(n_mu, N_AZIMUTH, |i, j| {
-                    // The azimuth of the j-th node.
-                    let phi = match j {
-                        0 => 0.0,
-                        _ if j + 1 == N_AZIMUTH => FRAC_PI_2,
-                        _ => {
-                            let place = j as f32 / (N_AZIMUTH - 1) as f32;
-                            f64::from(invert(place, |t| at(f64::from(t) * FRAC_PI_2).1)) * FRAC_PI_2
-                        }
-                    };
-                    node(i, phi, at(phi).0, ggx)
-                });
-                let sum = mean_over_azimuth(ggx, |t, alpha| {
-                    mean_over_cosine(interface, &grid, Stencil::new(t, N_AZIMUTH), alpha)
-                });
-                Self { interface, grid, means: vec![pack_mean(sum)] }
-            }
+                node(i, phi, at(phi).0, [ggx.ax, ggx.ay])
+            })
         }
     }
+}
+
+/// Means over the hemisphere, of those over μ in a row at a roughness: at equidistant ln α, or one over the azimuth.
+pub(super) fn means<const K: usize>(anisotropic: Option<Ggx>, row: impl Fn(Stencil, f32) -> [f64; K]) -> Vec<[f64; K]> {
+    let Some(ggx) = anisotropic else {
+        let mean = |k| {
+            let alpha = alpha_of(k as f32 / (N_MEANS - 1) as f32);
+            row(Stencil::new(log_alpha(alpha), N_ALPHA), alpha)
+        };
+        return (0..N_MEANS).map(mean).collect();
+    };
+    // Midpoints in the stretched azimuth t, where the interpolant is smooth: dφ = αφ²/(αx αy) dt.
+    const N: usize = 128;
+    let mut sum = [0.0; K];
+    for j in 0..N {
+        let (sin, cos) = ((j as f64 + 0.5) / N as f64 * FRAC_PI_2).sin_cos();
+        let phi = (sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax));
+        let (alpha, t) = azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
+        let mean = row(Stencil::new(t, N_AZIMUTH), alpha);
+        let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
+        sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
+    }
+    vec![sum]
+}
+
+/// Place of an α among the means.
+pub(super) fn mean_row(alpha: f32) -> Stencil {
+    Stencil::new(log_alpha(alpha), N_MEANS)
 }
 
 /// Where μ stands in the grid: steps in proportion to μ where μ > α, ever finer ones towards the horizon, and likewise
@@ -267,31 +308,22 @@ fn unpack_mean(v: Vec4) -> Energy {
     Energy { loss: v.x.exp(), parts: [v.y, v.z] }
 }
 
-/// Mean over the azimuth of `of` the place t of an azimuth and the roughness that it meets: midpoints in the stretched
-/// azimuth, where interpolants are smooth, dφ = αφ²/(αx αy) dt.
-fn mean_over_azimuth(ggx: Ggx, of: impl Fn(f32, f32) -> [f64; 3]) -> [f64; 3] {
-    const N: usize = 128;
-    let mut sum = [0.0; 3];
-    for j in 0..N {
-        let (sin, cos) = ((j as f64 + 0.5) / N as f64 * FRAC_PI_2).sin_cos();
-        let phi = (sin / f64::from(ggx.ay)).atan2(cos / f64::from(ggx.ax));
-        let (alpha, t) = azimuth(ggx, Vec3::new(phi.cos() as f32, phi.sin() as f32, 0.0));
-        let mean = of(t, alpha);
-        let weight = f64::from(alpha).powi(2) / (f64::from(ggx.ax) * f64::from(ggx.ay) * N as f64);
-        sum = std::array::from_fn(|k| sum[k] + weight * mean[k]);
-    }
-    sum
+/// 2 ∫ e(μ) μ dμ of the interpolant.
+fn mean_over_cosine(interface: Interface, grid: &Grid<Vec4>, row: Stencil, alpha: f32) -> [f64; 3] {
+    over_cosine(interface, alpha, |mu| {
+        let e = unpack(interface, grid.at(abscissa(interface, mu, alpha), row), mu, alpha);
+        [e.loss, e.parts[0], e.parts[1]]
+    })
 }
 
-/// 2 ∫ e(μ) μ dμ of the interpolant.
-fn mean_over_cosine(interface: Interface, grid: &Grid, row: Stencil, alpha: f32) -> [f64; 3] {
-    let energy = |mu: f64| unpack(interface, grid.at(abscissa(interface, mu as f32, alpha), row), mu as f32, alpha);
+/// 2 ∫ f(μ) μ dμ of what varies as energies do.
+pub(super) fn over_cosine<const K: usize>(interface: Interface, alpha: f32, f: impl Fn(f32) -> [f32; K]) -> [f64; K] {
     // In the scale of the abscissa, on either side of the critical angle: graded panels of four nodes.
     let rule = gauss_legendre::<4>();
     let alpha = f64::from(alpha);
     let critical = f64::from(interface.critical());
     const PANELS: usize = 128;
-    let mut sum = [0.0; 3];
+    let mut sum = [0.0; K];
     let mut integrate = |from: f64, to: f64| {
         // μ = from ± α sinh t.
         let end = ((to - from).abs() / alpha).asinh();
@@ -300,8 +332,7 @@ fn mean_over_cosine(interface: Interface, grid: &Grid, row: Stencil, alpha: f32)
                 let t = (panel as f64 + x) / PANELS as f64 * end;
                 let mu = from + (alpha * t.sinh()).copysign(to - from);
                 let weight = 2.0 * mu * alpha * t.cosh() * w * end / PANELS as f64;
-                let e = energy(mu);
-                for (sum, e) in sum.iter_mut().zip([e.loss, e.parts[0], e.parts[1]]) {
+                for (sum, e) in sum.iter_mut().zip(f(mu as f32)) {
                     *sum += weight * f64::from(e);
                 }
             }

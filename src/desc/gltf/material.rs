@@ -52,6 +52,9 @@ impl Reader<'_> {
         let texture = self.color_texture(pbr.base_color_texture.as_ref(), &at("baseColorTexture"))?;
         let base_color = ColorParam { factor: [factor[R], factor[G], factor[B]], texture, vertex_color: true };
         let coverage = ScalarParam { factor: factor[A], texture: texture.map(|t| (t, A)) };
+        let unlit = extensions.is_some_and(|e| e.unlit.is_some());
+        let gloss = if unlit { None } else { self.specular_glossiness(extensions, place)? };
+        let coverage = gloss.as_ref().map_or(coverage, |(_, coverage)| *coverage);
         let alpha = match m.alpha_mode {
             Checked::Valid(AlphaMode::Opaque) => Alpha::Opaque,
             Checked::Valid(AlphaMode::Blend) => Alpha::Blend { coverage },
@@ -69,7 +72,7 @@ impl Reader<'_> {
             |model, emission| Material { name, model, emission, normal_map: None, alpha, interior, double_sided };
 
         // KHR_materials_unlit: the base colour as it is, whatever the light.
-        if extensions.is_some_and(|e| e.unlit.is_some()) {
+        if unlit {
             self.notes.at(
                 place,
                 "`KHR_materials_unlit`: the material emits its base colour on both sides and reflects nothing",
@@ -98,7 +101,9 @@ impl Reader<'_> {
                 clearcoat: self.clearcoat(extensions, place)?,
             },
             diffuse_transmission: self.diffuse_transmission(extensions, place)?,
+            iridescence: self.iridescence(extensions, place)?,
         }));
+        let model = gloss.map_or(model, |(m, _)| Model::SpecularGlossiness(Box::new(m)));
         if m.occlusion_texture.is_some() {
             self.notes.at(place, "occlusion textures are ignored: light transport finds what is occluded");
         }
@@ -213,6 +218,9 @@ pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
         Alpha::Opaque => {}
         Alpha::Mask { coverage, .. } | Alpha::Blend { coverage } => look(scalar(coverage)),
     }
+    if let Model::SpecularGlossiness(p) = &m.model {
+        [p.diffuse.texture, p.specular.texture, scalar(&p.glossiness)].into_iter().for_each(&mut look);
+    }
     if let Model::MetallicRoughness(p) = &m.model {
         look(p.base_color.texture);
         look(p.specular_color.texture);
@@ -222,6 +230,10 @@ pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
             [Some(&p.metallic), Some(&p.roughness), Some(&p.specular), p.transmission.as_ref().map(|t| &t.factor)];
         scalars.into_iter().flatten().for_each(|p| look(scalar(p)));
         p.layers.textures().for_each(|t| look(Some(t)));
+        if let Some(film) = &p.iridescence {
+            look(scalar(&film.factor));
+            look(film.thickness_texture.map(|(t, _)| t));
+        }
     }
     used
 }

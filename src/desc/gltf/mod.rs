@@ -8,6 +8,7 @@
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
 //! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `KHR_materials_anisotropy`, `_sheen`, `_clearcoat` | [`Layers`](super::Layers) of the material; a sheen roughness below 0.05 is 0.05 |
+//! | `KHR_materials_pbrSpecularGlossiness` | [`SpecularGlossiness`](super::SpecularGlossiness) in its place |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
 //! | `range` of a light | the end that the extension requires, by the window that it recommends |
@@ -51,6 +52,7 @@ mod image;
 mod image_based;
 mod instances;
 mod interior;
+mod iridescence;
 mod light;
 mod material;
 mod mesh;
@@ -64,6 +66,7 @@ mod profile;
 mod sheen;
 mod skin;
 mod slot;
+mod specular_glossiness;
 mod tangents;
 mod texture;
 mod triangles;

@@ -203,5 +203,6 @@ fn gloss(base_color: ColorParam, metallic: ScalarParam, roughness: ScalarParam, 
         transmission: None,
         layers: Layers::default(),
         diffuse_transmission: None,
+        iridescence: None,
     }))
 }

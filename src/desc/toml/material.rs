@@ -9,8 +9,8 @@ use super::metals;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Number, Positive, Read, mismatch, suggest, words};
 use super::schema::Defs;
 use crate::desc::{
-    Alpha, DiffuseTransmission, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, Roughness,
-    ScalarParam, Sides, Transmission,
+    Alpha, DiffuseTransmission, Emission, Fresnel, Interior, Iridescence, Material, MetallicRoughness, Model,
+    Roughness, ScalarParam, Sides, Transmission,
 };
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
@@ -36,6 +36,8 @@ one_of! {
     /// A surface material.
     enum MaterialKind {
         "diffuse" => Diffuse,
+        "phong" => Phong,
+        "cook-torrance" => CookTorrance,
         "mirror" => Mirror,
         "dielectric" => Dielectric,
         "conductor" => Conductor,
@@ -46,10 +48,22 @@ one_of! {
 }
 
 keys! {
-    /// Lambert: scatters alike in all directions.
+    /// Lambert: scatters alike in all directions; with a roughness, Oren and Nayar's grooves without loss of energy (EON).
     struct Diffuse {
         /// Albedo, each channel in [0, 1].
         reflectance: Reflectance,
+        /// Roughness in [0, 1], a number or a texture. Default 0: Lambert.
+        roughness: Option<Scalar>,
+    }
+}
+
+keys! {
+    /// Phong's lobe about the mirror direction, normalised: (n + 2)/(2π) cosⁿα.
+    struct Phong {
+        /// Albedo at normal incidence, each channel in [0, 1].
+        reflectance: Reflectance,
+        /// Exponent n, at least 0.
+        exponent: NonNegative,
     }
 }
 
@@ -97,6 +111,27 @@ keys! {
 }
 
 keys! {
+    /// Microfacets of Cook and Torrance: Beckmann's distribution of normals. Give one of `metal`, `eta` with `k`,
+    /// `reflectance` and `ior`.
+    struct CookTorrance {
+        /// A metal by its chemical symbol: Ag, Al, Au, Cr, Cu, Fe, Ni, Ti.
+        metal: Option<At<String>>,
+        /// Real part of the index of refraction for R, G and B.
+        eta: Option<[Positive; 3]>,
+        /// Extinction coefficient for R, G and B.
+        k: Option<[NonNegative; 3]>,
+        /// Reflectance at normal incidence (Schlick's approximation), each channel in [0, 1].
+        reflectance: Option<Reflectance>,
+        /// Index of refraction of a dielectric, of which only the reflection is shown.
+        ior: Option<Positive>,
+        /// Perceptual roughness in [0, 1] (Beckmann's alpha is its square), a number or a texture. Default 0: smooth.
+        roughness: Option<Scalar>,
+        /// Beckmann's alpha, a number or [along the tangent, along the bitangent], in place of the roughness.
+        alpha: Option<At<AlphaValue>>,
+    }
+}
+
+keys! {
     /// Several materials at once, f = Σ weight f; what the weights lack to 1 is absorbed.
     struct Mix {
         /// [{ material = "name", weight = 0.5 }, …]; the weights sum to at most 1.
@@ -137,8 +172,22 @@ keys! {
         diffuse_transmission_color: Reflectance = Reflectance::Constant([Fraction(1.0); 3]),
         /// Whether the surface is a thin sheet: what passes goes straight on instead of being refracted. Default true.
         thin: bool = true,
+        /// A film on the surface that is so thin that the light of its two faces interferes. Default: none.
+        film: Option<FilmTable>,
         ..interior: InteriorTable,
         ..layers: LayersTable,
+    }
+}
+
+keys! {
+    /// A thin film.
+    struct FilmTable {
+        /// Index of refraction, in [1, 1000]. Default 1.3.
+        ior: At<Number> = At { at: 0..0, value: Number(1.3) },
+        /// Thickness in nanometres.
+        thickness: NonNegative,
+        /// Share of the surface that it covers in [0, 1], a number or a texture. Default 1.
+        share: Scalar = Scalar::Constant(1.0),
     }
 }
 
@@ -247,7 +296,16 @@ impl MaterialKind {
     /// The scattering model.
     pub(super) fn build(&self, at: &std::ops::Range<usize>, b: &mut Builder<'_>) -> Result<Model, Fault> {
         Ok(match self {
-            Self::Diffuse(m) => Model::Diffuse { reflectance: m.reflectance.build_base(b)? },
+            Self::Diffuse(m) => {
+                let reflectance = m.reflectance.build_base(b)?;
+                match m.roughness.as_ref().map(|r| r.build(b)).transpose()? {
+                    Some(roughness) if roughness != ScalarParam::constant(0.0) => {
+                        Model::RoughDiffuse { reflectance, roughness }
+                    }
+                    _ => Model::Diffuse { reflectance },
+                }
+            }
+            Self::Phong(m) => Model::Phong { reflectance: m.reflectance.build_base(b)?, exponent: m.exponent.0 },
             Self::Mirror(m) => Model::Mirror { reflectance: m.reflectance.build(b)? },
             Self::Dielectric(m) => {
                 let roughness = roughness(m.roughness.as_ref(), m.alpha.as_ref(), b)?;
@@ -257,6 +315,10 @@ impl MaterialKind {
             Self::Conductor(m) => {
                 let roughness = roughness(m.roughness.as_ref(), m.alpha.as_ref(), b)?;
                 Model::Conductor { fresnel: m.fresnel(at, b)?, roughness }
+            }
+            Self::CookTorrance(m) => {
+                let roughness = roughness(m.roughness.as_ref(), m.alpha.as_ref(), b)?;
+                Model::CookTorrance { fresnel: m.fresnel(at, b)?, roughness }
             }
             Self::Mix(m) => m.build(b)?,
             Self::MetallicRoughnessTable(m) => m.build(b)?,
@@ -308,6 +370,20 @@ impl Conductor {
     }
 }
 
+impl CookTorrance {
+    fn fresnel(&self, at: &std::ops::Range<usize>, b: &mut Builder<'_>) -> Result<Fresnel, Fault> {
+        let Self { metal, eta, k, reflectance, .. } = self.clone();
+        match self.ior {
+            // A dielectric is a conductor that does not absorb.
+            Some(ior) if metal.is_none() && eta.is_none() && k.is_none() && reflectance.is_none() => {
+                Ok(Fresnel::Complex { eta: [ior.0; 3], k: [0.0; 3] })
+            }
+            Some(_) => Err(Fault::new(at, "`ior` is given beside `metal`, `eta`, `k` or `reflectance`; expected one")),
+            None => Conductor { metal, eta, k, reflectance, roughness: None, alpha: None }.fresnel(at, b),
+        }
+    }
+}
+
 impl Mix {
     fn build(&self, b: &mut Builder<'_>) -> Result<Model, Fault> {
         let sum: f64 = self.parts.value.iter().map(|p| f64::from(p.weight.0)).sum();
@@ -347,6 +423,18 @@ impl MetallicRoughnessTable {
             transmission,
             layers: self.layers.build(b)?,
             diffuse_transmission,
+            iridescence: self.film.as_ref().map(|film| film.build(b)).transpose()?,
         })))
+    }
+}
+
+impl FilmTable {
+    fn build(&self, b: &mut Builder<'_>) -> Result<Iridescence, Fault> {
+        let ior = self.ior.value.0;
+        if !(1.0..=1e3).contains(&ior) {
+            return Err(Fault::new(&self.ior.at, format!("`ior` is {ior}, expected a number in [1, 1000]")));
+        }
+        let thickness = [self.thickness.0; 2];
+        Ok(Iridescence { factor: self.share.build(b)?, ior, thickness, thickness_texture: None })
     }
 }

@@ -146,6 +146,7 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
     };
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => of("roughness", &[p.factor], Share),
+        Roughness::Glossiness(p) => of("glossiness", &[p.factor], Share),
         Roughness::Alpha(a) => of("roughness", a, Share),
         Roughness::Stretched { roughness, strength } => {
             [of("roughness", &[roughness.factor], Share), of("anisotropy", &[strength.factor], Share)].concat()
@@ -154,10 +155,22 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
     match model {
         Model::Absorb | Model::Mix(_) => Vec::new(),
         Model::Diffuse { reflectance } | Model::Mirror { reflectance } => of("reflectance", &reflectance.factor, Share),
+        Model::RoughDiffuse { reflectance, roughness } => {
+            [of("reflectance", &reflectance.factor, Share), of("roughness", &[roughness.factor], Share)].concat()
+        }
+        Model::Phong { reflectance, exponent } => {
+            [of("reflectance", &reflectance.factor, Share), of("exponent", &[*exponent], NotNegative)].concat()
+        }
+        Model::SpecularGlossiness(m) => [
+            of("diffuse", &m.diffuse.factor, Share),
+            of("specular", &m.specular.factor, Share),
+            of("glossiness", &[m.glossiness.factor], Share),
+        ]
+        .concat(),
         Model::Dielectric { ior, roughness, tint } => {
             [of("index of refraction", &[*ior], Positive), rough(roughness), of("tint", &tint.factor, Share)].concat()
         }
-        Model::Conductor { fresnel, roughness } => match fresnel {
+        Model::Conductor { fresnel, roughness } | Model::CookTorrance { fresnel, roughness } => match fresnel {
             Fresnel::Schlick { f0 } => [rough(roughness), of("reflectance", &f0.factor, Share)].concat(),
             Fresnel::Complex { eta, k } => [rough(roughness), of("η", eta, Positive), of("κ", k, NotNegative)].concat(),
         },
@@ -182,6 +195,11 @@ fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
             if let Some(coat) = &m.layers.clearcoat {
                 all.push(("clear coat", coat.factor.factor, Share));
                 all.push(("roughness of the coat", coat.roughness.factor, Share));
+            }
+            if let Some(film) = &m.iridescence {
+                all.push(("iridescence", film.factor.factor, Share));
+                all.push(("index of the film", film.ior, Positive));
+                all.extend(film.thickness.map(|x| ("thickness of the film", x, NotNegative)));
             }
             all
         }

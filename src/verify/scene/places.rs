@@ -63,16 +63,28 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => scalar("roughness", p),
         Roughness::Stretched { roughness, .. } => scalar("roughness", roughness),
+        Roughness::Glossiness(p) => scalar("glossiness", p),
         Roughness::Alpha(_) => None,
     };
     match m {
         Model::Absorb => {}
-        Model::Diffuse { reflectance } | Model::Mirror { reflectance } => color("reflectance", reflectance),
+        Model::Diffuse { reflectance } | Model::Mirror { reflectance } | Model::Phong { reflectance, .. } => {
+            color("reflectance", reflectance);
+        }
+        Model::RoughDiffuse { reflectance, roughness } => {
+            color("reflectance", reflectance);
+            readings.extend(scalar("roughness", roughness));
+        }
+        Model::SpecularGlossiness(m) => {
+            color("diffuse", &m.diffuse);
+            color("specular", &m.specular);
+            readings.extend(scalar("glossiness", &m.glossiness));
+        }
         Model::Dielectric { roughness, tint, .. } => {
             color("tint", tint);
             readings.extend(rough(roughness));
         }
-        Model::Conductor { fresnel, roughness } => {
+        Model::Conductor { fresnel, roughness } | Model::CookTorrance { fresnel, roughness } => {
             if let Fresnel::Schlick { f0 } = fresnel {
                 color("reflectance", f0);
             }
@@ -97,6 +109,11 @@ fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
             readings.extend(m.layers.clearcoat.and_then(|c| scalar("roughness of the coat", &c.roughness)));
             readings.extend(m.diffuse_transmission.as_ref().and_then(|t| scalar("diffuse transmission", &t.factor)));
             readings.extend(m.transmission.as_ref().and_then(|t| scalar("transmission", &t.factor)));
+            if let Some(film) = &m.iridescence {
+                readings.extend(scalar("iridescence", &film.factor));
+                let thickness = ScalarParam { factor: 1.0, texture: film.thickness_texture };
+                readings.extend(scalar("thickness of the film", &thickness));
+            }
         }
     }
 }

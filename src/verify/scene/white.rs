@@ -14,12 +14,22 @@ pub(super) fn lossless(material: &Material) -> Option<Material> {
 fn white(model: &Model) -> Option<Model> {
     const WHITE: ColorParam = ColorParam::constant([1.0; 3]);
     Some(match model {
-        Model::Absorb => return None,
+        // Of Phong's lobe a part is below the horizon.
+        Model::Absorb | Model::Phong { .. } => return None,
         Model::Diffuse { .. } => Model::Diffuse { reflectance: WHITE },
+        Model::RoughDiffuse { roughness, .. } => Model::RoughDiffuse { reflectance: WHITE, roughness: *roughness },
         Model::Mirror { .. } => Model::Mirror { reflectance: WHITE },
         Model::Dielectric { ior, roughness, .. } => Model::Dielectric { ior: *ior, roughness: *roughness, tint: WHITE },
         Model::Conductor { roughness, .. } => {
             Model::Conductor { fresnel: Fresnel::Schlick { f0: WHITE }, roughness: *roughness }
+        }
+        Model::CookTorrance { roughness, .. } => {
+            Model::CookTorrance { fresnel: Fresnel::Schlick { f0: WHITE }, roughness: *roughness }
+        }
+        Model::SpecularGlossiness(m) => {
+            let mut m = m.clone();
+            m.diffuse = WHITE;
+            Model::SpecularGlossiness(m)
         }
         Model::MetallicRoughness(m) => {
             let mut m = m.clone();
@@ -28,6 +38,8 @@ fn white(model: &Model) -> Option<Model> {
             if let Some(through) = &mut m.diffuse_transmission {
                 through.color = WHITE;
             }
+            // A base under a film whose fringes are too many for its series is coupled to more than the film reflects.
+            m.iridescence = None;
             Model::MetallicRoughness(m)
         }
         Model::Mix(parts) => {

@@ -56,6 +56,7 @@ pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: 
     let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
     let rough = |r: &Roughness| match r {
         Roughness::Perceptual(p) => format!("roughness {:.2}", param::scalar(p, at)),
+        Roughness::Glossiness(p) => format!("glossiness {:.2}", param::scalar(p, at)),
         Roughness::Alpha([a, b]) if a == b => format!("α {a}"),
         Roughness::Alpha([a, b]) => format!("α {a} × {b}"),
         Roughness::Stretched { roughness, strength } => {
@@ -64,7 +65,12 @@ pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: 
     };
     fn of(model: &Model, rough: &dyn Fn(&Roughness) -> String, at: Point) -> String {
         match model {
-            Model::Conductor { roughness, .. } | Model::Dielectric { roughness, .. } => rough(roughness),
+            Model::Conductor { roughness, .. }
+            | Model::CookTorrance { roughness, .. }
+            | Model::Dielectric { roughness, .. } => rough(roughness),
+            Model::RoughDiffuse { roughness, .. } => rough(&Roughness::Perceptual(*roughness)),
+            Model::SpecularGlossiness(m) => rough(&Roughness::Glossiness(m.glossiness)),
+            Model::Phong { exponent, .. } => format!("exponent {exponent}"),
             Model::MetallicRoughness(m) => {
                 let r = rough(&Roughness::Perceptual(m.roughness));
                 format!("{r}, metal {:.2}", param::scalar(&m.metallic, at))
@@ -85,13 +91,19 @@ pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> 
     let rough = |r: &Roughness| {
         let alpha = match r {
             Roughness::Perceptual(p) => param::scalar(p, at).powi(2),
+            Roughness::Glossiness(p) => (1.0 - param::scalar(p, at)).powi(2),
             Roughness::Alpha([a, b]) => a.min(*b),
             Roughness::Stretched { roughness, .. } => param::scalar(roughness, at).powi(2),
         };
         (alpha >= MIN_ALPHA).then_some(f64::from(alpha))
     };
     match model {
-        Model::Conductor { roughness, .. } | Model::Dielectric { roughness, .. } => rough(roughness),
+        Model::Conductor { roughness, .. }
+        | Model::CookTorrance { roughness, .. }
+        | Model::Dielectric { roughness, .. } => rough(roughness),
+        Model::SpecularGlossiness(m) => rough(&Roughness::Glossiness(m.glossiness)),
+        // As wide as a microsurface of α² = 2/(n + 2).
+        Model::Phong { exponent, .. } => Some((2.0 / (f64::from(*exponent) + 2.0)).sqrt()),
         Model::MetallicRoughness(m) => {
             let coat = m.layers.clearcoat.and_then(|coat| rough(&Roughness::Perceptual(coat.roughness)));
             rough(&Roughness::Perceptual(m.roughness)).into_iter().chain(coat).min_by(f64::total_cmp)
@@ -99,7 +111,7 @@ pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> 
         Model::Mix(parts) => {
             parts.iter().filter_map(|(_, part)| least_alpha(part, textures, place)).min_by(f64::total_cmp)
         }
-        Model::Absorb | Model::Diffuse { .. } | Model::Mirror { .. } => None,
+        Model::Absorb | Model::Diffuse { .. } | Model::RoughDiffuse { .. } | Model::Mirror { .. } => None,
     }
 }
 

@@ -20,10 +20,8 @@ pub(super) fn tasks() -> Vec<Task> {
             // The least of them times the least α of specimens, 0.002, is above HALF_VECTOR.
             let cosines: &[f64] = trial.pick(&[0.8, 0.1, 0.01], &[1.0, 0.9, 0.7, 0.5, 0.4, 0.2, 0.08, 0.02, 0.006]);
             let granted = tables(&s);
-            // The albedo of rough metals comes from a fit of their Fresnel term, which costs choices and no light.
             let told = match &*s.name {
                 name if name.contains("beneath") => BENEATH,
-                name if name.starts_with("gold") => GOLD,
                 name if name.starts_with("sheen") => SHEEN,
                 _ => granted,
             };
@@ -62,9 +60,6 @@ fn roughnesses(trial: &Trial) -> impl Iterator<Item = f32> {
     let n = trial.pick(4, 24);
     (0..=n).map(move |i| 10f32.powf(-3.5 * (1.0 - i as f32 / n as f32)))
 }
-
-/// Error of the fit of metals.
-const GOLD: f64 = 3e-2;
 
 /// Error of the table of sheen where little is reflected.
 const SHEEN: f64 = 1e-2;

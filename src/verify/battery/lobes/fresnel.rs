@@ -5,7 +5,7 @@ use crate::verify::{Task, Topic};
 use glam::{Vec3, Vec4};
 
 /// F = (|r_s|² + |r_p|²)/2, r_s = (cos θi − √(n² − sin²θi))/(cos θi + √…), r_p = (n² cos θi − √…)/(n² cos θi + √…).
-const TOPIC: Topic = Topic {
+pub(super) const TOPIC: Topic = Topic {
     id: "T5",
     title: "Fresnel's reflectance, Snell's law, critical angle sin θ = 1/n, Brewster's angle tan θ = n, complex indices",
     source: "Born & Wolf, sections 1.5 and 14.2",

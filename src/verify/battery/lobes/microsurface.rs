@@ -1,6 +1,6 @@
 //! A2 and A3: the microsurface.
 
-use crate::bsdf::Ggx;
+use crate::bsdf::{Beckmann, Ggx};
 use crate::stats::Moments;
 use crate::verify::measure::to_detect;
 use crate::verify::scattering::{Closures, Density, Draw, at_cosine, density};
@@ -22,6 +22,44 @@ const FURNACE: Topic =
         id: "A3", title: "weak white furnace ∫ G1(o,h) D(h)/(4 cos θo) dωi = 1", source: "Heitz 2014, eq. 107"
     };
 
+/// A microsurface under test.
+#[derive(Clone, Copy)]
+enum Surface {
+    Ggx(Ggx),
+    Beckmann(Beckmann),
+}
+
+/// The same question to either.
+macro_rules! either {
+    ($surface:expr, $s:ident => $answer:expr) => {
+        match $surface {
+            Surface::Ggx($s) => $answer,
+            Surface::Beckmann($s) => $answer,
+        }
+    };
+}
+
+impl Surface {
+    fn alpha(&self) -> [f32; 2] {
+        either!(self, s => [s.ax, s.ay])
+    }
+    fn d(&self, m: Vec3) -> f32 {
+        either!(self, s => s.d(m))
+    }
+    fn g1(&self, w: Vec3) -> f32 {
+        either!(self, s => s.g1(w))
+    }
+    fn visible_pdf(&self, o: Vec3, m: Vec3) -> f32 {
+        either!(self, s => s.visible_pdf(o, m))
+    }
+    fn sample_visible(&self, o: Vec3, u: [f32; 2]) -> Vec3 {
+        either!(self, s => s.sample_visible(o, u))
+    }
+}
+
+/// Roughnesses of Beckmann's microsurface.
+const BECKMANN: [[f32; 2]; 3] = [[0.05, 0.05], [0.6, 0.6], [0.15, 0.5]];
+
 const SURFACES: [[f32; 2]; 8] =
     [[1e-3, 1e-3], [0.01, 0.01], [0.1, 0.1], [0.3, 0.3], [1.0, 1.0], [0.15, 0.6], [0.9, 0.2], [0.01, 0.3]];
 
@@ -37,7 +75,11 @@ fn cosines(trial: &Trial) -> &'static [f32] {
 }
 
 pub(super) fn tasks() -> Vec<Task> {
-    let surfaces = || SURFACES.into_iter().map(|[ax, ay]| (format!("GGX α {ax} {ay}"), Ggx { ax, ay }));
+    let surfaces = || {
+        let ggx = SURFACES.into_iter().map(|[ax, ay]| (format!("GGX α {ax} {ay}"), Surface::Ggx(Ggx { ax, ay })));
+        let beckmann = |[ax, ay]: [f32; 2]| (format!("Beckmann α {ax} {ay}"), Surface::Beckmann(Beckmann { ax, ay }));
+        ggx.chain(BECKMANN.into_iter().map(beckmann))
+    };
     let normals = surfaces().map(|(name, g)| {
         Task::new(NORMALS, name, move |trial, found| {
             let projected = over_normals(trial, g, 1.0, |m| g.d(m) * m.z);
@@ -70,19 +112,20 @@ pub(super) fn tasks() -> Vec<Task> {
     normals.chain(furnace).collect()
 }
 
-/// ∫ f(m) dm by uniform directions w of the hemisphere scaled by α along x and y, under which D is constant: the linear
+/// ∫ f(m) dm by uniform directions w of the hemisphere scaled by α along x and y, under which D of GGX is constant: the linear
 /// map M takes the density p(w) to p(M⁻¹m/|M⁻¹m|) |M⁻¹| / |M⁻¹m|³.
-fn over_normals(trial: &Trial, g: Ggx, exact: f32, f: impl Fn(Vec3) -> f32) -> Moments {
+fn over_normals(trial: &Trial, g: Surface, exact: f32, f: impl Fn(Vec3) -> f32) -> Moments {
+    let [ax, ay] = g.alpha();
     to_detect(trial, exact.into(), AIM, trial.work(1 << 14, 1 << 17), |u: [f32; 2]| {
         let w = uniform_hemisphere(u);
-        let m = Vec3::new(g.ax * w.x, g.ay * w.y, w.z).normalize();
-        let length = Vec3::new(m.x / g.ax, m.y / g.ay, m.z).length();
-        f64::from(f(m) * (2.0 * PI * g.ax * g.ay * length * length * length))
+        let m = Vec3::new(ax * w.x, ay * w.y, w.z).normalize();
+        let length = Vec3::new(m.x / ax, m.y / ay, m.z).length();
+        f64::from(f(m) * (2.0 * PI * ax * ay * length * length * length))
     })
 }
 
 /// Visible normals as if they were scattered light.
-fn normals_of(g: Ggx) -> impl crate::verify::scattering::Scattering {
+fn normals_of(g: Surface) -> impl crate::verify::scattering::Scattering {
     let visible =
         move |o: DVec3, m: DVec3| if m.z > 0.0 { f64::from(g.visible_pdf(o.as_vec3(), m.as_vec3())) } else { 0.0 };
     Closures {

@@ -2,6 +2,7 @@
 
 mod density;
 mod energy;
+mod film;
 mod fresnel;
 mod lambert;
 mod microsurface;
@@ -13,13 +14,14 @@ use crate::verify::Task;
 
 /// Every check of lobes.
 pub(super) fn tasks() -> Vec<Task> {
-    let rows: [fn() -> Vec<Task>; 7] = [
+    let rows: [fn() -> Vec<Task>; 8] = [
         lambert::tasks,
         microsurface::tasks,
         reciprocity::tasks,
         energy::tasks,
         density::tasks,
         fresnel::tasks,
+        film::tasks,
         radiance::tasks,
     ];
     rows.iter().flat_map(|row| row()).collect()
@@ -55,6 +57,8 @@ fn tables(specimen: &Specimen) -> f64 {
         name if name.contains("rough dielectric") => 3e-4,
         name if name.starts_with("turned") => 3e-3,
         name if name.contains("sheen") => 1e-3,
+        // Series of twelve terms for two fringes.
+        name if name.contains("film") => 1e-3,
         _ => 2e-4,
     }
 }

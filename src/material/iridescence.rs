@@ -1,0 +1,47 @@
+//! KHR_materials_iridescence: where the film lies, and how thick it is.
+
+use super::param::{self, Point};
+use crate::bsdf::{FilmedDielectric, Fresnel, Lobe, Micro, RoughFilmedDielectric, ThinFilm};
+use crate::desc::{self, ScalarParam};
+use crate::spectrum::Spectrum;
+
+/// A film at a point, and the share of the surface that it covers.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Covering {
+    film: ThinFilm,
+    share: f32,
+}
+
+impl Covering {
+    /// The film over a point; `None` where there is none.
+    #[inline]
+    pub(super) fn at(iridescence: Option<&desc::Iridescence>, at: Point) -> Option<Self> {
+        let film = iridescence?;
+        let share = param::scalar(&film.factor, at);
+        let [least, most] = film.thickness;
+        let place = ScalarParam { factor: 1.0, texture: film.thickness_texture };
+        let thickness = least + (most - least) * param::scalar(&place, at);
+        (share > 0.0).then_some(Self { film: ThinFilm { eta: film.ior, thickness }, share })
+    }
+
+    /// The same everywhere.
+    pub(super) fn is_constant(iridescence: &desc::Iridescence) -> bool {
+        iridescence.factor.texture.is_none() && iridescence.thickness_texture.is_none()
+    }
+
+    /// `weight` times the reflectance of a base that alone reflects `f0` at normal incidence.
+    #[inline]
+    pub(super) fn over(&self, f0: Spectrum, weight: f32) -> Fresnel {
+        Fresnel::under_film(self.film, self.share, f0, weight)
+    }
+
+    /// The interface of a volume of index `eta` ≥ 1.
+    #[inline]
+    pub(super) fn interface(&self, eta: f32, tint: Spectrum, micro: Option<Micro>) -> Lobe {
+        let facet = FilmedDielectric { eta, tint, film: self.film, share: self.share };
+        match micro {
+            None => Lobe::FilmedDielectric(facet),
+            Some(micro) => Lobe::RoughFilmedDielectric(RoughFilmedDielectric { ggx: *micro.surface(), facet }),
+        }
+    }
+}
