@@ -129,7 +129,7 @@ fn skins_that_are_wrong() {
     d.clone().set("/skins/0/inverseBindMatrices", json!(few)).fails("/skins/0/inverseBindMatrices", "has 1 elements");
     d.clone().set("/skins/0/joints/1", json!(9)).fails("/skins/0/joints/1", "node 9");
     d.clone().set("/scenes/0/nodes", json!([0])).fails("/skins/0/joints/0", "not in the scene");
-    d.clone().set("/nodes/0/skin", json!(4)).fails("/meshes/0/primitives/0", "refers to skin 4");
+    d.clone().set("/nodes/0/skin", json!(4)).fails("/nodes/0/skin", "refers to skin 4");
     d.remove(joints);
     assert!(noted(&d.read().unwrap(), "do not follow their skin"));
 }

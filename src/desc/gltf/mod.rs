@@ -18,8 +18,8 @@
 //! | `EXT_mesh_gpu_instancing` | an object per instance; `KHR_node_visibility` leaves objects and lights out, not cameras |
 //! | morph targets | the primitive displaced by the node's weights, else the mesh's: a mesh of its own for each set of weights |
 //! | skins | the primitive bent by its joints, in world space: a mesh of its own for each skin |
-//! | animations | none, or all together at the time of [`Options`](super::Options): see below |
-//! | `KHR_materials_variants` | the materials of the variant of [`Options`](super::Options) |
+//! | animations | none, or all together at the time of [`Options`]: see below |
+//! | `KHR_materials_variants` | the materials of the variant of [`Options`] |
 //! | `KHR_mesh_quantization`, `EXT_meshopt_compression`, `KHR_draco_mesh_compression` | what they encode |
 //!
 //! Time: where none is asked for, the pose that the nodes state. Else all animations of the file play together from

@@ -140,6 +140,9 @@ impl Reader<'_> {
             return Err(self.source.invalid(format!("{place}/weights"), message));
         }
         self.budget.decode(self.source, place, weights.len(), size_of::<u32>())?;
+        if let Some(skin) = node.skin {
+            self.source.get(&self.source.root.skins, skin.value(), "skin", &format!("{place}/skin"))?;
+        }
         let moved = weights.iter().any(|w| *w != 0.0);
         let bits = || weights.iter().map(|w| w.to_bits()).collect();
         let pose = Pose { weights: if moved { bits() } else { Vec::new() }, skin: node.skin.map(|s| s.value()) };
