@@ -38,24 +38,27 @@ pub struct CoupledDiffuse {
 #[derive(Clone, Copy, Debug)]
 enum FilmCoat {
     Smooth(Fresnel),
-    Rough(Angular, Slice),
+    /// By its series; the energy is that of the coat.
+    Rough(Angular),
 }
 
 impl FilmCoat {
-    /// 1 − E_s towards `w`; F_ms is `f_ms`.
+    /// 1 − E_s towards `w`.
     #[inline]
-    fn transmitted(&self, w: Vec3, f_ms: Spectrum) -> Spectrum {
-        let e = match self {
-            Self::Smooth(fresnel) => fresnel.eval(w.z.abs().min(1.0)),
-            Self::Rough(series, energy) => energy.reflected(series, w) + f_ms * energy.at(w).loss,
+    fn transmitted(&self, w: Vec3, coat: &Coat) -> Spectrum {
+        let e = match (self, &coat.energy) {
+            (Self::Smooth(fresnel), _) => fresnel.eval(w.z.abs().min(1.0)),
+            (Self::Rough(series), Some(energy)) => energy.reflected(series, w) + coat.f_ms * energy.at(w).loss,
+            (Self::Rough(_), None) => Spectrum::ONE,
         };
         (Spectrum::ONE - e).max(Spectrum::ZERO)
     }
 
-    fn transmitted_average(&self, f_ms: Spectrum) -> Spectrum {
-        let e = match self {
-            Self::Smooth(fresnel) => fresnel.average(),
-            Self::Rough(series, energy) => energy.reflected_mean(series) + f_ms * energy.mean.loss,
+    fn transmitted_average(&self, coat: &Coat) -> Spectrum {
+        let e = match (self, &coat.energy) {
+            (Self::Smooth(fresnel), _) => fresnel.average(),
+            (Self::Rough(series), Some(energy)) => energy.reflected_mean(series) + coat.f_ms * energy.mean.loss,
+            (Self::Rough(_), None) => Spectrum::ONE,
         };
         (Spectrum::ONE - e).max(Spectrum::ZERO)
     }
@@ -120,9 +123,9 @@ impl CoupledDiffuse {
         let film = match (coat.energy, fresnel.angular()) {
             (_, None) => return Self::new(reflectance, coat),
             (None, Some(_)) => FilmCoat::Smooth(fresnel),
-            (Some(energy), Some(series)) => FilmCoat::Rough(series.covering(), energy),
+            (Some(_), Some(series)) => FilmCoat::Rough(series.covering()),
         };
-        Self::with(reflectance, coat, film.transmitted_average(coat.f_ms), Some(film))
+        Self::with(reflectance, coat, film.transmitted_average(&coat), Some(film))
     }
 
     fn with(reflectance: Spectrum, coat: Coat, average: Spectrum, film: Option<FilmCoat>) -> Self {
@@ -156,7 +159,7 @@ impl CoupledDiffuse {
     fn transmitted(&self, w: Vec3) -> Spectrum {
         match &self.film {
             None => self.coat.transmitted(w),
-            Some(film) => film.transmitted(w, self.coat.f_ms),
+            Some(film) => film.transmitted(w, &self.coat),
         }
     }
 }

@@ -52,9 +52,10 @@ impl Faces {
     #[inline]
     fn new(outer: [f32; 2], inner: [Vec4; 2]) -> Self {
         let ([x, y], [z, w]) = (outer, inner);
-        let (sum, sums) = (1.0 / (x + y), (z + w).recip());
+        // Where both vanish, at the horizon, nothing passes.
+        let (sum, sums) = (1.0 / (x + y).max(1e-30), (z + w).max(Vec4::splat(1e-30)).recip());
         let q = (z - w) * sums * (-(x - y) * sum);
-        Self { outer: 4.0 * x * y * sum * sum, inner: 4.0 * z * w * sums * sums, q }
+        Self { outer: 4.0 * (x * sum) * (y * sum), inner: 4.0 * (z * sums) * (w * sums), q }
     }
 
     /// T of incoherent light: the mean over φ.
@@ -226,6 +227,19 @@ mod tests {
             assert!((r - quarter).abs() < 1e-5, "{eta} {f0}: {r} {quarter}");
             let r = film(eta, 550.0 / (2.0 * eta)).monochromatic(1.0, f0, 550.0);
             assert!((r - f0).abs() < 1e-5, "{eta} {f0}: {r}");
+        }
+    }
+
+    #[test]
+    fn corners_give_numbers() {
+        for (eta, thickness) in [(1.0, 0.0), (1.0, 300.0), (1.3, 1e-30), (1.3, f32::MAX), (1e3, 1e5)] {
+            for f0 in BASES {
+                for cos in [0.0, 1e-38, 1e-20, 1e-7, 1e-3, 1.0] {
+                    let r = film(eta, thickness).reflectance(cos, Vec4::splat(f0.sqrt())).0;
+                    let bounded = r.cmpge(Vec4::ZERO).all() && r.cmple(Vec4::ONE).all();
+                    assert!(bounded && (cos > 0.0 || r == Vec4::ONE), "n {eta} d {thickness} F0 {f0} cos {cos}: {r}");
+                }
+            }
         }
     }
 

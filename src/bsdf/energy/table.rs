@@ -361,7 +361,9 @@ mod tests {
     fn interpolation_costs_little() {
         let rule = Rule::new::<20, 32>();
         let eta = |eta| Interface::Dielectric { eta };
-        for (interface, bound) in [(Interface::Mirror, 1e-4), (eta(1.5), 3e-4), (eta(1.0 / 1.5), 2e-4)] {
+        for (interface, bound) in
+            [(Interface::Mirror, 1e-4), (Interface::BeckmannMirror, 1e-4), (eta(1.5), 3e-4), (eta(1.0 / 1.5), 2e-4)]
+        {
             let start = std::time::Instant::now();
             EnergyTable::isotropic(interface);
             let elapsed = start.elapsed();

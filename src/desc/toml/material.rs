@@ -36,13 +36,13 @@ one_of! {
     /// A surface material.
     enum MaterialKind {
         "diffuse" => Diffuse,
-        "phong" => Phong,
-        "cook-torrance" => CookTorrance,
         "mirror" => Mirror,
         "dielectric" => Dielectric,
         "conductor" => Conductor,
         "mix" => Mix,
         "metallic-roughness" => MetallicRoughnessTable,
+        "phong" => Phong,
+        "cook-torrance" => CookTorrance,
         "absorb" => Absorb,
     } default None
 }
