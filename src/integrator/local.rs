@@ -62,7 +62,7 @@ pub(super) fn reflected<O: Observer>(
 
     // By light.
     if sees_lights(shading.bsdf, scene) {
-        let (all, specular) = direct_light(method, vertex, shading, sides, choose_light, u_light, watch);
+        let (all, specular, _) = direct_light(method, vertex, shading, sides, 0, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }

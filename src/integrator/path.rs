@@ -57,11 +57,15 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 
         // ∫ by light
         if sees_lights(shading.bsdf, scene) {
-            let (all, specular) = direct_light(method, &vertex, &shading, sides, choose_light, u_light, watch);
+            let sheets = method.max_depth - depth - 1;
+            let (all, specular, sheets) =
+                direct_light(method, &vertex, &shading, sides, sheets, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {
-                watch.light(light, &classes.reflected(all, specular));
+                // Each sheet on the way is a specular transmission.
+                let classes = (0..sheets).fold(classes.reflected(all, specular), |c, _| c.reflected(all, all));
+                watch.light(light, &classes);
             }
         }
 
@@ -70,10 +74,16 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let Some(leaving) = shading.leave(&vertex, next.wi) else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
-        drawn = Drawn::new(next.pdf, vertex.surface.p);
+        // Light sampling looks through thin sheets. What passes one straight on meets lights as if it were not there: as
+        // the direction was drawn, or the light would count twice.
+        let straight = next.eta == 1.0 && next.wi == -shading.wo && shading.bsdf.straight(shading.wo).is_some();
+        let now = Drawn::new(next.pdf, vertex.surface.p);
+        if !(straight && now == Drawn::Delta) {
+            drawn = now;
+        }
         ray = leaving;
         inside = sides.towards(shading.wo, next.wi).clone();
-        watch.drawn(drawn, beta);
+        watch.drawn(now, beta);
         if O::CLASSES {
             classes = classes.reflected(next.weight, next.specular);
         }
