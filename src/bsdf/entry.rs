@@ -35,7 +35,7 @@ pub(super) struct Entry {
     /// Selection probability × the sum over all entries.
     pub(super) weight: f32,
     /// The lobe's own frame in the shading frame, where it has one.
-    frame: Option<Frame>,
+    pub(super) frame: Option<Frame>,
     /// The layers over it: from, to.
     above: [u8; 2],
     /// It lets light in and out by the product of what both ways transmit, not by the smaller of the two.

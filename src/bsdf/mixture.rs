@@ -241,6 +241,22 @@ impl Bsdf {
         samples
     }
 
+    /// Share of light that passes straight through thin sheets, where no other lobe sends a delta the same way: then the
+    /// surface may be looked through without a choice. `None`: it may not.
+    pub fn straight(&self, wo: Vec3) -> Option<Spectrum> {
+        let mut sum = None;
+        for e in &self.entries {
+            match e.lobe {
+                Lobe::ThinTransmission(l) if e.frame.is_none() => {
+                    *sum.get_or_insert(Spectrum::ZERO) += l.albedo(wo) * (e.scale * self.dimmed(e, wo, -wo));
+                }
+                Lobe::ThinTransmission(_) | Lobe::SmoothDielectric(_) | Lobe::FilmedDielectric(_) => return None,
+                _ => {}
+            }
+        }
+        sum
+    }
+
     /// Directional albedo, reflection and transmission together.
     pub fn albedo(&self, wo: Vec3) -> Spectrum {
         let t = transmitted(&self.layers, wo);

@@ -66,7 +66,7 @@ pub(super) fn reflected<O: Observer>(
     // By light.
     if sees_lights(vertex, shading, scene) {
         let stray = next.and_then(|next| next.stray);
-        let (all, specular) = direct_light(method, vertex, shading, sides, stray, choose_light, u_light, watch);
+        let (all, specular, _) = direct_light(method, vertex, shading, sides, stray, 0, choose_light, u_light, watch);
         sum += all;
         watch.light(beta * all, &classes.reflected(all, specular));
     }

@@ -127,18 +127,21 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: 
 ///
 /// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
 /// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
-/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`). Returns the radiance and the part of it that specular lobes reflect.
+/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`). The shadow ray looks through at most
+/// `most_sheets` smooth thin sheets. Returns the radiance, the part of it that specular lobes reflect, and the number of
+/// sheets.
 pub fn direct_light<O: Observer>(
     method: &Method,
     vertex: &Vertex,
     shading: &Shading,
     sides: Sides,
     stray: Option<Stray>,
+    most_sheets: u32,
     choice: f32,
     u: [f32; 2],
     watch: &mut O,
-) -> (Spectrum, Spectrum) {
-    const NOTHING: (Spectrum, Spectrum) = (Spectrum::ZERO, Spectrum::ZERO);
+) -> (Spectrum, Spectrum, u32) {
+    const NOTHING: (Spectrum, Spectrum, u32) = (Spectrum::ZERO, Spectrum::ZERO, 0);
     let scene = method.scene;
     let receiver = shading.receiver(vertex);
     let Some((_, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
@@ -165,15 +168,15 @@ pub fn direct_light<O: Observer>(
     }
     watch.ray();
     let inside = sides.towards(vertex, light.wi);
-    let visible = scene.visibility(vertex, &light, inside);
-    if visible == 0.0 {
+    let seen = scene.visibility(vertex, &light, inside, most_sheets);
+    if seen.share.is_black() {
         return NOTHING;
     }
-    let mut arriving = light.le * (share * visible);
+    let mut arriving = light.le * seen.share * share;
     if !inside.is_empty() {
         arriving *= scene.media.transmittance(inside, light.distance);
     }
-    (f * arriving, specular * arriving)
+    (f * arriving, specular * arriving, seen.sheets)
 }
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would

@@ -60,11 +60,15 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         // ∫ by light
         if sees_lights(&vertex, &shading, scene) {
             let stray = next.and_then(|next| next.stray);
-            let (all, specular) = direct_light(method, &vertex, &shading, sides, stray, choose_light, u_light, watch);
+            let sheets = method.max_depth - depth - 1;
+            let (all, specular, sheets) =
+                direct_light(method, &vertex, &shading, sides, stray, sheets, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {
-                watch.light(light, &classes.reflected(all, specular));
+                // Each sheet on the way is a specular transmission.
+                let classes = (0..sheets).fold(classes.reflected(all, specular), |c, _| c.reflected(all, all));
+                watch.light(light, &classes);
             }
         }
 
@@ -72,9 +76,14 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let Some(next) = next else { break };
         beta *= next.weight;
         eta_scale *= next.eta * next.eta;
-        (ray, drawn) = (next.ray, next.drawn);
+        // Light sampling looks through thin sheets. What passes one straight on meets lights as if it were not there: as
+        // the direction was drawn, or the light would count twice.
+        if !next.straight {
+            drawn = next.drawn;
+        }
+        ray = next.ray;
         inside = sides.towards(&vertex, ray.d).clone();
-        watch.drawn(drawn, beta);
+        watch.drawn(next.drawn, beta);
         if O::CLASSES {
             classes = classes.reflected(next.weight, next.specular);
         }

@@ -41,6 +41,8 @@ pub(super) struct Scattered {
     pub(super) eta: f32,
     /// How it was drawn.
     pub(super) drawn: Drawn,
+    /// It passed a smooth thin sheet straight on, which light sampling looks through.
+    pub(super) straight: bool,
     /// The draw had strayed.
     pub(super) stray: Option<Stray>,
 }
@@ -83,7 +85,11 @@ pub(super) fn draw(
             }
             Pdf::Discrete(_) => Drawn::Delta,
         };
-        return Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, stray: None });
+        let straight = drawn == Drawn::Delta
+            && eta == 1.0
+            && next.wi == -shading.wo
+            && shading.bsdf.straight(shading.wo).is_some();
+        return Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray: None });
     }
     if next.wi.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
         return None;
@@ -102,5 +108,5 @@ pub(super) fn draw(
     let rho = shading.bsdf.albedo(Vec3::Z.copysign(shading.wo)).min(Spectrum::ONE);
     let (weight, specular) = (weight * rho, specular * rho);
     let stray = Some(Stray { weight, specular, side });
-    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, stray })
+    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight: false, stray })
 }

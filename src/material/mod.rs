@@ -39,6 +39,7 @@ pub struct Material {
     emission: Option<Emission>,
     normal_map: Option<NormalMap>,
     alpha: Alpha,
+    is_sheet: bool,
 }
 
 #[derive(Clone, Debug)]
@@ -129,7 +130,14 @@ impl Material {
             }
             _ => Scattering::Sum(parts),
         };
-        Self { scattering, between, emission: m.emission, normal_map: m.normal_map, alpha: m.alpha }
+        Self {
+            scattering,
+            between,
+            emission: m.emission,
+            normal_map: m.normal_map,
+            alpha: m.alpha,
+            is_sheet: is_sheet(&m.model),
+        }
     }
 
     /// Lobes at a hit: the material's own, or those that vary over the surface, put into `scratch`. `wo`, in the local
@@ -192,6 +200,12 @@ impl Material {
         }
     }
 
+    /// It may be looked through ([`Bsdf::straight`]): some of it is a smooth thin sheet.
+    #[inline]
+    pub fn is_sheet(&self) -> bool {
+        self.is_sheet
+    }
+
     /// Coverage may be less than 1.
     #[inline]
     pub fn has_holes(&self) -> bool {
@@ -247,6 +261,18 @@ pub fn most_lobes(model: &desc::Model) -> usize {
         }
         desc::Model::SpecularGlossiness(_) => 2,
         _ => 1,
+    }
+}
+
+/// Somewhere it may be a smooth thin sheet.
+fn is_sheet(model: &desc::Model) -> bool {
+    match model {
+        desc::Model::MetallicRoughness(m) => {
+            let smooth = m.roughness.texture.is_some() || m.roughness.factor.powi(2) < crate::bsdf::MIN_ALPHA;
+            smooth && m.transmission.as_ref().is_some_and(|t| t.thin && t.factor.factor > 0.0)
+        }
+        desc::Model::Mix(parts) => parts.iter().any(|(_, part)| is_sheet(part)),
+        _ => false,
     }
 }
 

@@ -60,6 +60,7 @@ impl Scene {
         };
         Ok(Self {
             geometry,
+            has_sheets: compiled.iter().any(Material::is_sheet),
             has_holes: compiled.iter().any(Material::has_holes),
             media: Media::new(&materials),
             materials: compiled,

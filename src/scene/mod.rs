@@ -41,7 +41,23 @@ pub struct Scene {
     pub media: Media,
     /// Some material has holes, so that a shadow ray must look at what it meets.
     has_holes: bool,
+    /// Some material may be looked through, likewise.
+    has_sheets: bool,
     info: Info,
+}
+
+/// How much of a light is seen.
+#[derive(Clone, Copy, Debug)]
+pub struct Seen {
+    /// Share of its light that arrives.
+    pub share: Spectrum,
+    /// Thin sheets that the way leads through, each a transmission of its own.
+    pub sheets: u32,
+}
+
+impl Seen {
+    const NOTHING: Self = Self { share: Spectrum::ZERO, sheets: 0 };
+    const ALL: Self = Self { share: Spectrum::ONE, sheets: 0 };
 }
 
 /// Where a ray met a surface.
@@ -91,32 +107,50 @@ impl Scene {
         }
     }
 
-    /// Share of light that arrives at `vertex`, on its side where the interiors are `inside`: 0 or 1, or between where
-    /// the way leads through holes.
+    /// How much of the light arrives at `vertex`, on its side where the interiors are `inside`: nothing or all, or
+    /// between where the way leads through holes and at most `most_sheets` smooth thin sheets, which do not bend it.
     #[inline]
-    pub fn visibility(&self, vertex: &Vertex, light: &LightSample, inside: &Inside) -> f32 {
+    pub fn visibility(&self, vertex: &Vertex, light: &LightSample, inside: &Inside, most_sheets: u32) -> Seen {
         let s = &vertex.surface;
         let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
         let mut ray = Ray { o, d: light.wi, t_max: light.distance };
-        if !self.has_holes && inside.is_empty() {
-            return if self.geometry.occluded(&ray) { 0.0 } else { 1.0 };
+        let looks_through = self.has_sheets && most_sheets > 0;
+        if !self.has_holes && !looks_through && inside.is_empty() {
+            return if self.geometry.occluded(&ray) { Seen::NOTHING } else { Seen::ALL };
         }
-        let (mut share, mut inside) = (1.0, inside.clone());
+        let (mut seen, mut inside) = (Seen::ALL, inside.clone());
         while let Some(hit) = self.geometry.nearest(&ray) {
             let vertex = self.vertex(&ray, &hit);
             match self.media.hidden(&inside, &vertex) {
-                None => share *= 1.0 - self.coverage(&vertex),
+                None => {
+                    let coverage = self.coverage(&vertex);
+                    let holes = Spectrum::splat(1.0 - coverage);
+                    let through = if looks_through && coverage > 0.0 { self.through(&vertex) } else { None };
+                    seen.sheets += u32::from(through.is_some());
+                    seen.share *= through.map_or(holes, |through| holes + through * coverage);
+                    if seen.sheets > most_sheets || seen.share.is_black() {
+                        return Seen::NOTHING;
+                    }
+                }
                 Some(across) => inside = across,
-            }
-            if share <= 0.0 {
-                return 0.0;
             }
             ray = self.beyond(&ray, &vertex);
             if ray.t_max <= 0.0 {
                 break;
             }
         }
-        share
+        seen
+    }
+
+    /// Share of light that passes a vertex of a smooth thin sheet; `None` where there is no such thing.
+    #[inline(never)]
+    fn through(&self, vertex: &Vertex) -> Option<Spectrum> {
+        if !self.materials[vertex.material as usize].is_sheet() {
+            return None;
+        }
+        let mut scratch = Bsdf::new();
+        let shading = self.shade(vertex, &Interface::default(), None, &mut scratch);
+        shading.bsdf.straight(shading.wo)
     }
 
     /// Frame, lobes and local `wo` at a vertex between the media of `interface`, of `lane` where the path has chosen
