@@ -1,10 +1,10 @@
 //! One table for every pair of roughnesses: energies where αx and αy vary over a surface.
 
+use super::axes::{abscissa, alpha_of, azimuth, invert, shape};
 use super::grid::{Grid, Stencil};
 use super::interface::{Energy, Interface};
 use super::mean::over_hemisphere;
 use super::quadrature::Rule;
-use super::table::{abscissa, alpha_of, azimuth, invert, shape};
 use crate::bsdf::ggx::Ggx;
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;

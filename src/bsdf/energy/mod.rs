@@ -12,6 +12,7 @@
 //! tables here: the quadrature is converged, the interpolation cubic, and `loss_avg` belongs to the interpolant.
 
 mod atlas;
+mod axes;
 mod grid;
 mod interface;
 mod mean;

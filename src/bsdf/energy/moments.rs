@@ -1,9 +1,10 @@
 //! Energy of microfacets whose reflectance over the angle is a series.
 
+use super::axes::abscissa;
 use super::grid::Grid;
 use super::interface::Interface;
 use super::quadrature::Rule;
-use super::table::{EnergyTable, Slice, abscissa, mean_row, means, nodes, over_cosine};
+use super::table::{EnergyTable, Slice, mean_row, means, nodes, over_cosine};
 use crate::bsdf::angular::{Angular, TERMS, polynomials};
 use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};

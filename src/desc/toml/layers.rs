@@ -3,9 +3,9 @@
 use super::build::Builder;
 use super::color::{Reflectance, Scalar};
 use super::keys::keys;
-use super::material::NormalMapValue;
+use super::normal_map::NormalMapValue;
 use super::read::{At, Fault, Number};
-use crate::desc::{Anisotropy, Clearcoat, Layers, NormalMap, Sheen};
+use crate::desc::{Anisotropy, Clearcoat, Layers, Sheen};
 
 keys! {
     /// Anisotropy of the base, sheen and clear coat over it (glTF's KHR_materials_anisotropy, _sheen, _clearcoat).
@@ -50,13 +50,5 @@ impl LayersTable {
             layers.clearcoat = Some(Clearcoat { factor, roughness, normal_map });
         }
         Ok(layers)
-    }
-}
-
-impl NormalMapValue {
-    /// The map.
-    pub(super) fn build(&self, b: &mut Builder<'_>) -> Result<NormalMap, Fault> {
-        let Self(map) = self;
-        Ok(NormalMap { texture: b.texture(&map.texture, map.uv_set, false)?, scale: map.scale.0 })
     }
 }

@@ -2,15 +2,17 @@
 
 use super::build::Builder;
 use super::color::{Radiance, Reflectance, Scalar};
+use super::film::FilmTable;
 use super::interior::{self, InteriorTable};
 use super::keys::{keys, one_of};
 use super::layers::LayersTable;
 use super::metals;
+use super::normal_map::NormalMapValue;
 use super::read::{At, Fault, Fraction, Node, NonNegative, Number, Positive, Read, mismatch, suggest, words};
 use super::schema::Defs;
 use crate::desc::{
-    Alpha, DiffuseTransmission, Emission, Fresnel, Interior, Iridescence, Material, MetallicRoughness, Model,
-    Roughness, ScalarParam, Sides, Transmission,
+    Alpha, DiffuseTransmission, Emission, Fresnel, Interior, Material, MetallicRoughness, Model, Roughness,
+    ScalarParam, Sides, Transmission,
 };
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
@@ -180,18 +182,6 @@ keys! {
 }
 
 keys! {
-    /// A thin film.
-    struct FilmTable {
-        /// Index of refraction, in [1, 1000]. Default 1.3.
-        ior: At<Number> = At { at: 0..0, value: Number(1.3) },
-        /// Thickness in nanometres.
-        thickness: NonNegative,
-        /// Share of the surface that it covers in [0, 1], a number or a texture. Default 1.
-        share: Scalar = Scalar::Constant(1.0),
-    }
-}
-
-keys! {
     /// Scatters nothing: black.
     struct Absorb {
     }
@@ -219,41 +209,6 @@ impl Read for AlphaValue {
     }
     fn schema(defs: &mut Defs) -> Json {
         json!({ "anyOf": [Fraction::schema(defs), <[Fraction; 2]>::schema(defs)] })
-    }
-}
-
-keys! {
-    /// A tangent-space normal map.
-    struct NormalMapTable {
-        /// Name of the texture; RGB holds (n + 1)/2, green upwards against v.
-        texture: At<String>,
-        /// Factor on the x and y of the normal. Default 1.
-        scale: Number = Number(1.0),
-        /// Which of the mesh's UV sets: 0 or 1. Default 0.
-        uv_set: u32 = 0,
-    }
-}
-
-/// A texture's name, or a table.
-#[derive(Clone, Debug)]
-pub(super) struct NormalMapValue(pub(super) NormalMapTable);
-
-impl Read for NormalMapValue {
-    fn read(node: &Node<'_>) -> Result<Self, Fault> {
-        match node.get_ref() {
-            DeValue::String(_) => Ok(Self(NormalMapTable { texture: At::read(node)?, scale: Number(1.0), uv_set: 0 })),
-            DeValue::Table(_) => NormalMapTable::read(node).map(Self),
-            _ => Err(mismatch::<Self>(node)),
-        }
-    }
-    fn one() -> String {
-        "a texture's name or { texture = …, scale = … }".into()
-    }
-    fn many() -> String {
-        "normal maps".into()
-    }
-    fn schema(defs: &mut Defs) -> Json {
-        json!({ "anyOf": [{ "type": "string" }, defs.reference::<NormalMapTable>()] })
     }
 }
 
@@ -425,16 +380,5 @@ impl MetallicRoughnessTable {
             diffuse_transmission,
             iridescence: self.film.as_ref().map(|film| film.build(b)).transpose()?,
         })))
-    }
-}
-
-impl FilmTable {
-    fn build(&self, b: &mut Builder<'_>) -> Result<Iridescence, Fault> {
-        let ior = self.ior.value.0;
-        if !(1.0..=1e3).contains(&ior) {
-            return Err(Fault::new(&self.ior.at, format!("`ior` is {ior}, expected a number in [1, 1000]")));
-        }
-        let thickness = [self.thickness.0; 2];
-        Ok(Iridescence { factor: self.share.build(b)?, ior, thickness, thickness_texture: None })
     }
 }

@@ -1,0 +1,68 @@
+//! Where directions and roughnesses stand among the nodes of the tables.
+
+use super::interface::Interface;
+use crate::bsdf::ggx::Ggx;
+use crate::math::sqr;
+use glam::Vec3;
+use std::f32::consts::FRAC_2_PI;
+
+/// ln of half of [`crate::bsdf::ggx::MIN_ALPHA`]: the least α in the tables.
+const LOG_MIN: f32 = -9.903_487;
+
+/// Where μ stands in the grid: steps in proportion to μ where μ > α, ever finer ones towards the horizon, and likewise
+/// about the critical angle, where features are as wide as α.
+#[inline]
+pub(super) fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
+    let x = (asinh(mu / alpha) / asinh(1.0 / alpha)).sqrt();
+    let critical = interface.critical();
+    if critical == 0.0 {
+        return x;
+    }
+    let below = asinh(critical / alpha);
+    0.5 * (x + (asinh((mu - critical) / alpha) + below) / (asinh((1.0 - critical) / alpha) + below))
+}
+
+/// Inverse hyperbolic sine; fast, and odd to the last bit.
+#[inline]
+fn asinh(t: f32) -> f32 {
+    let a = t.abs();
+    (a + (a * a + 1.0).sqrt()).ln().copysign(t)
+}
+
+/// Where a growing function takes the value `x` in \[0, 1\].
+pub(super) fn invert(x: f32, of: impl Fn(f32) -> f32) -> f32 {
+    let (mut low, mut high) = (0.0f32, 1.0f32);
+    for _ in 0..60 {
+        let middle = 0.5 * (low + high);
+        if of(middle) < x { low = middle } else { high = middle }
+    }
+    0.5 * (low + high)
+}
+
+/// ln α, scaled to \[0, 1\].
+#[inline]
+pub(super) fn log_alpha(alpha: f32) -> f32 {
+    1.0 - alpha.ln() / LOG_MIN
+}
+
+pub(super) fn alpha_of(t: f32) -> f32 {
+    ((1.0 - t) * LOG_MIN).exp()
+}
+
+/// The roughness that a direction's azimuth meets, and the place of the azimuth among the nodes in \[0, 1\]: the mean of
+/// itself and of its stretched image, for energies change with both.
+#[inline]
+pub(super) fn azimuth(ggx: Ggx, w: Vec3) -> (f32, f32) {
+    let (x, y, r) = (ggx.ax * w.x.abs(), ggx.ay * w.y.abs(), w.x.hypot(w.y));
+    if r < 1e-12 {
+        return (ggx.ax, 0.0);
+    }
+    let place = y.atan2(x) + w.y.abs().atan2(w.x.abs());
+    (x.hypot(y) / r, place * (0.5 * FRAC_2_PI))
+}
+
+/// Rough shape of the loss.
+#[inline]
+pub(super) fn shape(mu: f32, alpha: f32) -> f32 {
+    sqr(alpha) / (sqr(mu) + sqr(alpha))
+}
