@@ -6,6 +6,7 @@
 //! | primitive | one [`Mesh`](super::Mesh), shared by all nodes and primitives with the same data; points and lines are skipped |
 //! | missing normals | flat; missing tangents under a normal map: MikkTSpace over the map's own UV |
 //! | material | [`MetallicRoughness`](super::MetallicRoughness), its emission, normal map and coverage |
+//! | `KHR_materials_volume`, `_dispersion` | the interior of closed meshes, the mesh itself being its thickness; of overlapping ones that entered last is there |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual` | cameras and lights in world space, scale removed |
 //! | `"extras": {"closed": true}` of a node or mesh | its objects are declared closed |
