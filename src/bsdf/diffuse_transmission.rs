@@ -1,4 +1,4 @@
-//! Diffuse transmission.
+//! Diffuse light that leaves on the other side of a surface.
 
 use super::Transport;
 use super::lambert::{CoupledDiffuse, sample_cosine};

@@ -9,6 +9,7 @@
 //! | images | PNG and JPEG; KTX2 by `KHR_texture_basisu`, WebP by `EXT_texture_webp`: what the extension names, never the fallback |
 //! | `KHR_materials_anisotropy`, `_sheen`, `_clearcoat` | [`Layers`](super::Layers) of the material; a sheen roughness below 0.05 is 0.05 |
 //! | `KHR_materials_pbrSpecularGlossiness` | [`SpecularGlossiness`](super::SpecularGlossiness) in its place |
+//! | `KHR_materials_volume`, `_dispersion` | the interior of closed meshes, the mesh itself being its thickness; of overlapping ones that entered last is there |
 //! | `alphaMode` MASK, BLEND | coverage = `baseColorFactor` A × texture A (× vertex alpha) |
 //! | cameras, `KHR_lights_punctual`, `EXT_lights_ies` | cameras and lights in world space, scale removed |
 //! | `range` of a light | the end that the extension requires, by the window that it recommends |
