@@ -74,7 +74,7 @@ fn truncated(
             let way = Way { integrator, strategy, sampler: SamplerKind::Sobol };
             Settings { max_depth: Some(depth), ..small(way, hash(&[trial.seed, strategy as u64])) }
         };
-        let spp = samples(scene, &settings(integrator), trial.work(2e5, 3e6))?;
+        let spp = samples(scene, &settings(integrator), trial.work(1.2e5, 3e6))?;
         let [one, two] = [integrator, path].map(|method| renders(scene, &Settings { spp, ..settings(method) }));
         let (one, two) = (one?, two?);
         let name = format!("{integrator:?}/{strategy:?}");
@@ -114,7 +114,7 @@ impl Observer for Restricted {
 fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findings) -> Result<(), Error> {
     let way = Way { integrator: Integrator::Whitted, strategy: Strategy::Mis, sampler: SamplerKind::Sobol };
     let settings = Settings { crop: [0, 8, 32, 32], ..small(way, trial.seed) };
-    let spp = samples(scene, &settings, trial.work(1e6, 1.5e7))?;
+    let spp = samples(scene, &settings, trial.work(6e5, 1.5e7))?;
     let tree = renders(scene, &Settings { spp, ..settings.clone() })?;
     census.add("tree", &tree);
     let paths = restricted(scene, &settings, u64::from(spp));
