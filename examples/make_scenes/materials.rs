@@ -23,15 +23,7 @@ pub(super) fn all() -> Result<Vec<(&'static str, Vec<u8>)>> {
         }),
         ("clearcoat", clearcoat()),
         ("diffuse-transmission", diffuse_transmission()),
-        ("dispersion", {
-            let glass = |dispersion: f32| {
-                json!({ "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0 }, "extensions": {
-                    "KHR_materials_transmission": { "transmissionFactor": 1 },
-                    "KHR_materials_volume": { "thicknessFactor": 1 }, "KHR_materials_ior": { "ior": 1.6 },
-                    "KHR_materials_dispersion": { "dispersion": dispersion } } })
-            };
-            pair("dispersion", glass(0.0), glass(8.0))
-        }),
+        ("dispersion", dispersion()),
         plain("emissive-strength", json!({ "KHR_materials_emissive_strength": { "emissiveStrength": 4 } })),
         plain("ior", json!({ "KHR_materials_ior": { "ior": 2.2 } })),
         ("iridescence", {
@@ -166,6 +158,27 @@ fn clearcoat() -> Result<Vec<u8>> {
     for (side, material) in [(-0.6, smooth), (0.6, bumpy)] {
         let material = file.material(material);
         let mesh = file.mesh("ball", &ball(0.55), material);
+        roots.push(file.node(json!({ "mesh": mesh, "translation": [side, 0.55, 0] })));
+    }
+    finish(file, &roots, json!({}))
+}
+
+/// Clear and dispersive glass before shining stripes.
+fn dispersion() -> Result<Vec<u8>> {
+    let (mut file, mut roots) = studio(json!({ "scale": [3, 3] }))?;
+    let stripe = |x: u32, _: u32| Rgb([if (x / 4).is_multiple_of(2) { 230 } else { 10 }; 3]);
+    let stripes = file.texture(&RgbImage::from_fn(64, 8, stripe))?;
+    let wall = file.material(json!({ "name": "stripes", "pbrMetallicRoughness": {
+        "baseColorTexture": { "index": stripes } }, "extensions": { "KHR_materials_unlit": {} } }));
+    let wall = file.mesh("wall", &cuboid(vec3(-2.4, 0.0, -1.5), vec3(2.4, 2.4, -1.4)), wall);
+    roots.push(file.node(json!({ "mesh": wall })));
+    for (side, dispersion) in [(-0.6, 0.0), (0.6, 8.0)] {
+        let glass = file.material(json!({ "name": format!("glass, dispersion {dispersion}"),
+            "pbrMetallicRoughness": { "metallicFactor": 0, "roughnessFactor": 0 }, "extensions": {
+                "KHR_materials_transmission": { "transmissionFactor": 1 },
+                "KHR_materials_volume": { "thicknessFactor": 1 }, "KHR_materials_ior": { "ior": 1.6 },
+                "KHR_materials_dispersion": { "dispersion": dispersion } } }));
+        let mesh = file.mesh("ball", &ball(0.55), glass);
         roots.push(file.node(json!({ "mesh": mesh, "translation": [side, 0.55, 0] })));
     }
     finish(file, &roots, json!({}))
