@@ -19,7 +19,7 @@
 //! for the share of all lobes.
 
 use super::{Drawn, Method, strategy};
-use crate::bsdf::{Pdf, Transport};
+use crate::bsdf::{Pdf, Sample, Transport};
 use crate::math::{Frame, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Shading, Vertex};
@@ -66,7 +66,7 @@ impl Stray {
 }
 
 /// Draws the next direction as the method's strategy says; `None` where the path ends.
-#[inline]
+#[inline(always)]
 pub(super) fn draw(
     method: &Method,
     vertex: &Vertex,
@@ -76,26 +76,31 @@ pub(super) fn draw(
     sampler: &mut Sampler,
 ) -> Option<Scattered> {
     let next = strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
-    let (weight, specular, eta) = (next.weight, next.specular, next.eta);
     let wi = shading.frame.to_world(next.wi).normalize();
-    if shading.agrees(vertex, wi, next.wi) {
-        let drawn = match next.pdf {
-            Pdf::SolidAngle(pdf) => {
-                Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) }
-            }
-            Pdf::Discrete(_) => Drawn::Delta,
-        };
-        let straight = drawn == Drawn::Delta
-            && eta == 1.0
-            && next.wi == -shading.wo
-            && shading.bsdf.straight(shading.wo).is_some();
-        return Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray: None });
+    if !shading.agrees(vertex, wi, next.wi) {
+        return astray(vertex, shading, &next, wi, sampler);
     }
+    let (drawn, straight) = match next.pdf {
+        Pdf::SolidAngle(pdf) => {
+            let pdf = pdf + shading.stray_pdf(vertex, wi);
+            (Drawn::Smooth { pdf, from: shading.receiver(vertex) }, false)
+        }
+        Pdf::Discrete(_) => {
+            let straight = next.eta == 1.0 && next.wi == -shading.wo && shading.bsdf.straight(shading.wo).is_some();
+            (Drawn::Delta, straight)
+        }
+    };
+    let Sample { weight, specular, eta, .. } = next;
+    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray: None })
+}
+
+/// A draw into the surface, or out of it where light is transmitted: it leaves by the cosine, to the side where it belongs.
+#[cold]
+#[inline(never)]
+fn astray(vertex: &Vertex, shading: &Shading, next: &Sample, wi: Vec3, sampler: &mut Sampler) -> Option<Scattered> {
     if next.wi.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
         return None;
     }
-
-    // Into the surface, or out of it where light is transmitted: by the cosine, to the side where it belongs.
     let side = 1f32.copysign(next.wi.z);
     let wi = Frame::from_z(vertex.surface.ng).to_world(cosine_hemisphere(sampler.next_2d())) * side;
     let local = shading.frame.to_local(wi);
@@ -106,7 +111,7 @@ pub(super) fn draw(
     };
     let drawn = Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) };
     let rho = shading.bsdf.albedo(Vec3::Z.copysign(shading.wo)).min(Spectrum::ONE);
-    let (weight, specular) = (weight * rho, specular * rho);
+    let (weight, specular, eta) = (next.weight * rho, next.specular * rho, next.eta);
     let stray = Some(Stray { weight, specular, side });
     Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight: false, stray })
 }
