@@ -144,7 +144,7 @@ impl Bsdf {
 
     /// Chooses a direction: `uc` picks the lobe (and what it picks itself), `u` the direction. `None` where nothing
     /// scatters, where the draw failed (its share of the density is lost: it counts as 0), or at a grazing `wo`.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, wo: Vec3, uc: f32, u: [f32; 2], mode: Transport) -> Option<Sample> {
         if wo.z == 0.0 {
             return None;
@@ -278,7 +278,7 @@ impl Bsdf {
     }
 
     /// Albedo of the only lobe where it is Lambert's: most surfaces of most scenes, and worth a way of its own.
-    #[inline]
+    #[inline(always)]
     fn only_lambert(&self) -> Option<Spectrum> {
         match self.entries.as_slice() {
             [e @ Entry { lobe: Lobe::Lambert(l), scale, .. }] if e.is_plain() => Some(l.reflectance * *scale),

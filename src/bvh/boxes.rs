@@ -2,8 +2,8 @@
 
 use super::Aabb;
 use super::build::build;
-use super::kernel::{KernelRay, Stack};
-use super::node::{LEAF, Node, WIDTH};
+use super::kernel::{self, Isa, KernelRay, Stack};
+use super::node::{LEAF, Node};
 use crate::math::Ray;
 
 /// Boxes whose contents are asked by a closure.
@@ -12,6 +12,7 @@ pub struct BoxBvh {
     nodes: Vec<Node>,
     leaves: Vec<Vec<u32>>,
     bounds: Aabb,
+    isa: Isa,
 }
 
 impl BoxBvh {
@@ -19,7 +20,7 @@ impl BoxBvh {
     pub fn build(boxes: &[Aabb]) -> Self {
         let tree = build(boxes);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
-        Self { nodes: tree.nodes, leaves: tree.leaves, bounds }
+        Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::detect() }
     }
 
     /// Asks `hit(id, ray)` of the contents of every box that the ray may meet, near ones first. `hit` returns the
@@ -31,8 +32,9 @@ impl BoxBvh {
             return false;
         }
         let mut ray = *ray;
-        let kernel = KernelRay::new(&ray);
+        let prepared = KernelRay::new(&ray);
         let mut stack = Stack::new();
+        stack.push((0.0, 0));
         let mut found = false;
         while let Some((near, child)) = stack.pop() {
             if near > ray.t_max {
@@ -52,10 +54,11 @@ impl BoxBvh {
             }
             let first = stack.len();
             let node = &self.nodes[child as usize];
-            for lane in 0..WIDTH {
-                if let Some(near) = enters(node, lane, &kernel, ray.t_max) {
-                    stack.insert(first, (near, node.child[lane]));
-                }
+            let (mut met, near) = kernel::enter(self.isa, node, &prepared, ray.t_max);
+            while met != 0 {
+                let lane = met.trailing_zeros() as usize & 7;
+                met &= met - 1;
+                stack.insert(first, (near[lane], node.child[lane]));
             }
         }
         found
@@ -76,17 +79,4 @@ impl BoxBvh {
     pub fn memory(&self) -> usize {
         size_of_val(&self.nodes[..]) + self.leaves.iter().map(|l| size_of_val(l) + size_of_val(&l[..])).sum::<usize>()
     }
-}
-
-/// Where the ray enters a lane's box, if it meets it before `t_max` (slabs as in the kernels).
-#[inline]
-fn enters(node: &Node, lane: usize, ray: &KernelRay, t_max: f32) -> Option<f32> {
-    let (mut near, mut far) = (0f32, t_max);
-    for axis in 0..3 {
-        let slab = |plane: usize| (node.planes[plane][lane] - ray.o[axis]) * ray.d_inv[axis];
-        let (a, b) = (slab(ray.near[axis]), slab(ray.near[axis] ^ 1) * (1.0 + 4e-7));
-        near = if a > near { a } else { near };
-        far = if b < far { b } else { far };
-    }
-    (near <= far).then_some(near)
 }

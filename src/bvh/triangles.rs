@@ -68,7 +68,7 @@ impl TriangleBvh {
     }
 
     /// The nearest hit in (0, `ray.t_max`).
-    #[inline]
+    #[inline(always)]
     pub fn nearest(&self, ray: &Ray) -> Option<TriangleHit> {
         let mut hit = TriangleHit::default();
         let found = !self.nodes.is_empty()
@@ -77,7 +77,7 @@ impl TriangleBvh {
     }
 
     /// Whether anything is hit in (0, `ray.t_max`).
-    #[inline]
+    #[inline(always)]
     pub fn occluded(&self, ray: &Ray) -> bool {
         !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray))
     }

@@ -28,13 +28,13 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     };
     sample.radiance = beta * emitted(method, &vertex, Drawn::Camera);
     watch.light(sample.radiance, &none);
-    let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
-    beta *= factor;
+    let interface = method.scene.media.interface(&inside, &vertex);
+    medium::choose_lane(method, &interface, &mut lane, &mut beta, sampler);
     let shading = method.scene.shade(&vertex, &interface, lane, &mut scratch);
     watch.vertex(0, ray, &vertex, Some(&shading), beta);
     first_surface(&mut sample, ray, &vertex, &shading);
     if method.max_depth > 0 {
-        let sides = Sides { here: &inside, across: &interface.across };
+        let sides = Sides { here: &inside, across: interface.across.as_ref() };
         sample.radiance += beta * reflected(method, &vertex, &shading, sides, sampler, watch, beta, none, |_| true);
     }
     sample

@@ -17,16 +17,21 @@ const LANES: usize = 3;
 pub struct Sides<'a> {
     /// Where the path came from.
     pub here: &'a Inside,
-    /// On the other side.
-    pub across: &'a Inside,
+    /// On the other side, where they are others.
+    pub across: Option<&'a Inside>,
 }
 
 impl<'a> Sides<'a> {
     /// Where the world direction `wi` leads from `vertex`.
     #[inline]
     pub fn towards(&self, vertex: &Vertex, wi: Vec3) -> &'a Inside {
-        let above = wi.dot(vertex.surface.ng) > 0.0;
-        if above == vertex.front { self.here } else { self.across }
+        self.changed(vertex, wi).unwrap_or(self.here)
+    }
+
+    /// The same, where it is not where the path came from.
+    #[inline]
+    pub fn changed(&self, vertex: &Vertex, wi: Vec3) -> Option<&'a Inside> {
+        self.across.filter(|_| (wi.dot(vertex.surface.ng) > 0.0) != vertex.front)
     }
 }
 
@@ -40,29 +45,23 @@ pub(super) fn on_the_way(method: &Method, ray: &Ray, end: Option<&Vertex>, insid
     method.scene.media.transmittance(inside, distance)
 }
 
-/// The media on both sides of a vertex, and the factor on β for the choice of a lane.
+/// Lets a path that meets its first dispersive interface go on with one lane alone.
 ///
-/// A dispersive interface bends every lane another way. A path that meets its first one goes on with one lane alone,
-/// chosen with probability p in proportion to its β and divided by it: lane by lane the mean is that of the paths that
-/// the lane would have taken by itself. Where β is grey, p = 1/3.
-#[inline]
-pub(super) fn interface(
+/// Such an interface bends every lane another way. The lane is chosen with probability p in proportion to its β and divided
+/// by it: lane by lane the mean is that of the paths that the lane would have taken by itself. Where β is grey, p = 1/3.
+#[inline(always)]
+pub(super) fn choose_lane(
     method: &Method,
-    vertex: &Vertex,
-    inside: &Inside,
+    interface: &Interface,
     lane: &mut Option<usize>,
-    beta: Spectrum,
+    beta: &mut Spectrum,
     sampler: &mut Sampler,
-) -> (Interface, Spectrum) {
-    let interface = method.scene.media.interface(inside, vertex);
-    let factor = if lane.is_none() && method.scene.media.disperses(&interface) {
-        let (chosen, factor) = choose(beta, sampler.next_1d());
+) {
+    if lane.is_none() && method.scene.media.disperses(interface) {
+        let (chosen, factor) = choose(*beta, sampler.next_1d());
         *lane = Some(chosen);
-        factor
-    } else {
-        Spectrum::ONE
-    };
-    (interface, factor)
+        *beta *= factor;
+    }
 }
 
 /// A lane with probability βₗ/Σβ, and 1/p in that lane.

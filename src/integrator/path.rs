@@ -28,7 +28,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         watch.ray();
         let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
         beta *= medium::on_the_way(method, &ray, met.as_ref(), &inside);
-        let Some(vertex) = met else {
+        let Some(vertex) = &met else {
             let light = beta * environment(method, &ray, drawn);
             sample.radiance += light;
             watch.light(light, &classes);
@@ -37,17 +37,17 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         };
 
         // Le
-        let light = beta * emitted(method, &vertex, drawn);
+        let light = beta * emitted(method, vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
 
-        let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
-        beta *= factor;
-        let shading = scene.shade(&vertex, &interface, lane, &mut scratch);
-        let sides = Sides { here: &inside, across: &interface.across };
-        watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
+        let interface = scene.media.interface(&inside, vertex);
+        medium::choose_lane(method, &interface, &mut lane, &mut beta, sampler);
+        let shading = scene.shade(vertex, &interface, lane, &mut scratch);
+        let sides = Sides { here: &inside, across: interface.across.as_ref() };
+        watch.vertex(depth, &ray, vertex, Some(&shading), beta);
         if depth == 0 {
-            first_surface(&mut sample, &ray, &vertex, &shading);
+            first_surface(&mut sample, &ray, vertex, &shading);
         }
         if depth == method.max_depth || shading.bsdf.is_empty() {
             break;
@@ -55,14 +55,14 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let [choose_light, choose_lobe] = sampler.next_2d();
         let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
 
-        let next = scatter::draw(method, &vertex, &shading, choose_lobe, u_bsdf, sampler);
+        let next = scatter::draw(method, vertex, &shading, choose_lobe, u_bsdf, sampler);
 
         // ∫ by light
-        if sees_lights(&vertex, &shading, scene) {
+        if sees_lights(vertex, &shading, scene) {
             let stray = next.and_then(|next| next.stray);
             let sheets = method.max_depth - depth - 1;
             let (all, specular, sheets) =
-                direct_light(method, &vertex, &shading, sides, stray, sheets, choose_light, u_light, watch);
+                direct_light(method, vertex, &shading, sides, stray, sheets, choose_light, u_light, watch);
             let light = beta * all;
             sample.radiance += light;
             if O::CLASSES {
@@ -82,7 +82,9 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
             drawn = next.drawn;
         }
         ray = next.ray;
-        inside = sides.towards(&vertex, ray.d).clone();
+        if let Some(changed) = sides.changed(vertex, ray.d).cloned() {
+            inside = changed;
+        }
         watch.drawn(next.drawn, beta);
         if O::CLASSES {
             classes = classes.reflected(next.weight, next.specular);

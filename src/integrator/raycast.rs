@@ -21,7 +21,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         }
         Some(vertex) => {
             sample.radiance = beta * emitted(method, &vertex, Drawn::Camera);
-            let (interface, _) = medium::interface(method, &vertex, &inside, &mut Some(1), beta, sampler);
+            let interface = method.scene.media.interface(&inside, &vertex);
             let shading = method.scene.shade(&vertex, &interface, Some(1), &mut scratch);
             watch.vertex(0, ray, &vertex, Some(&shading), beta);
             first_surface(&mut sample, ray, &vertex, &shading);

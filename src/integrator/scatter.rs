@@ -75,33 +75,46 @@ pub(super) fn draw(
     u: [f32; 2],
     sampler: &mut Sampler,
 ) -> Option<Scattered> {
-    let next = strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
-    let wi = shading.frame.to_world(next.wi).normalize();
-    if !shading.agrees(vertex, wi, next.wi) {
-        return astray(vertex, shading, &next, wi, sampler);
-    }
-    let (drawn, straight) = match next.pdf {
-        Pdf::SolidAngle(pdf) => {
-            let pdf = pdf + shading.stray_pdf(vertex, wi);
-            (Drawn::Smooth { pdf, from: shading.receiver(vertex) }, false)
+    let Sample { wi: local, mut weight, mut specular, pdf, eta } =
+        strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
+    let mut wi = shading.frame.to_world(local).normalize();
+    let (mut straight, mut stray) = (false, None);
+    let from = shading.receiver(vertex);
+    let drawn = if shading.agrees(vertex, wi, local) {
+        match pdf {
+            Pdf::SolidAngle(pdf) => Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from },
+            Pdf::Discrete(_) => {
+                straight = eta == 1.0 && local == -shading.wo && shading.bsdf.straight(shading.wo).is_some();
+                Drawn::Delta
+            }
         }
-        Pdf::Discrete(_) => {
-            let straight = next.eta == 1.0 && next.wi == -shading.wo && shading.bsdf.straight(shading.wo).is_some();
-            (Drawn::Delta, straight)
-        }
+    } else {
+        // Into the surface, or out of it where light is transmitted: to the side where it belongs.
+        let again = astray(vertex, shading, local, wi, sampler)?;
+        (weight, specular) = (weight * again.rho, specular * again.rho);
+        stray = Some(Stray { weight, specular, side: 1f32.copysign(local.z) });
+        wi = again.wi;
+        Drawn::Smooth { pdf: again.pdf, from }
     };
-    let Sample { weight, specular, eta, .. } = next;
-    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray: None })
+    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray })
 }
 
-/// A draw into the surface, or out of it where light is transmitted: it leaves by the cosine, to the side where it belongs.
+/// Where strayed light leaves: by the cosine.
+struct Again {
+    wi: Vec3,
+    pdf: f32,
+    /// Albedo of the neighbour.
+    rho: Spectrum,
+}
+
+/// How a draw that strayed, of direction `wi` (`local` in the frame), leaves again.
 #[cold]
 #[inline(never)]
-fn astray(vertex: &Vertex, shading: &Shading, next: &Sample, wi: Vec3, sampler: &mut Sampler) -> Option<Scattered> {
-    if next.wi.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
+fn astray(vertex: &Vertex, shading: &Shading, local: Vec3, wi: Vec3, sampler: &mut Sampler) -> Option<Again> {
+    if local.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
         return None;
     }
-    let side = 1f32.copysign(next.wi.z);
+    let side = 1f32.copysign(local.z);
     let wi = Frame::from_z(vertex.surface.ng).to_world(cosine_hemisphere(sampler.next_2d())) * side;
     let local = shading.frame.to_local(wi);
     let pdf = if shading.agrees(vertex, wi, local) {
@@ -109,9 +122,6 @@ fn astray(vertex: &Vertex, shading: &Shading, next: &Sample, wi: Vec3, sampler: 
     } else {
         0.0
     };
-    let drawn = Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from: shading.receiver(vertex) };
     let rho = shading.bsdf.albedo(Vec3::Z.copysign(shading.wo)).min(Spectrum::ONE);
-    let (weight, specular, eta) = (next.weight * rho, next.specular * rho, next.eta);
-    let stray = Some(Stray { weight, specular, side });
-    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight: false, stray })
+    Some(Again { wi, pdf: pdf + shading.stray_pdf(vertex, wi), rho })
 }

@@ -36,6 +36,7 @@ impl Drawn {
 }
 
 /// A direction for the recursion, drawn as the method's strategy says; `wo` local.
+#[inline(always)]
 pub fn sample(method: &Method, bsdf: &Bsdf, wo: Vec3, choice: f32, u: [f32; 2]) -> Option<Sample> {
     match method.strategy {
         Strategy::Bsdf | Strategy::Light | Strategy::Mis => bsdf.sample(wo, choice, u, Transport::Radiance),
@@ -46,6 +47,7 @@ pub fn sample(method: &Method, bsdf: &Bsdf, wo: Vec3, choice: f32, u: [f32; 2]) 
 
 /// Draws a direction without looking at the BSDF: delta lobes keep their own draws, the rest takes `hemisphere`
 /// above the surface, or on either side with equal probability where the BSDF transmits.
+#[inline(never)]
 fn blind(
     bsdf: &Bsdf,
     wo: Vec3,

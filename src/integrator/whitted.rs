@@ -32,10 +32,10 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let light = beta * emitted(method, &vertex, drawn);
         sample.radiance += light;
         watch.light(light, &classes);
-        let (interface, factor) = medium::interface(method, &vertex, &inside, &mut lane, beta, sampler);
-        beta *= factor;
+        let interface = scene.media.interface(&inside, &vertex);
+        medium::choose_lane(method, &interface, &mut lane, &mut beta, sampler);
         let shading = scene.shade(&vertex, &interface, lane, &mut scratch);
-        let sides = Sides { here: &inside, across: &interface.across };
+        let sides = Sides { here: &inside, across: interface.across.as_ref() };
         watch.vertex(depth, &ray, &vertex, Some(&shading), beta);
         if depth == 0 {
             first_surface(&mut sample, &ray, &vertex, &shading);

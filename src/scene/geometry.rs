@@ -118,14 +118,20 @@ impl Geometry {
     }
 
     /// Nearest hit in (0, `ray.t_max`).
-    #[inline]
+    #[inline(always)]
     pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let mut nearest = self.world.nearest(ray).map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
+        let nearest = self.world.nearest(ray).map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
         if self.objects.is_empty() {
             return nearest;
         }
-        let rest = Ray { t_max: nearest.map_or(ray.t_max, |h| h.t), ..*ray };
-        self.objects.traverse(&rest, |object, ray| {
+        self.nearest_object(ray, nearest.map_or(ray.t_max, |hit| hit.t)).or(nearest)
+    }
+
+    /// Nearest hit of instances and quadrics in (0, `t_max`).
+    #[inline(never)]
+    fn nearest_object(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+        let mut nearest = None;
+        self.objects.traverse(&Ray { t_max, ..*ray }, |object, ray| {
             let hit = self.object(object, ray)?;
             nearest = Some(hit);
             Some(hit.t)
@@ -134,17 +140,21 @@ impl Geometry {
     }
 
     /// Whether anything is hit in (0, `ray.t_max`).
-    #[inline]
+    #[inline(always)]
     pub fn occluded(&self, ray: &Ray) -> bool {
-        self.world.occluded(ray)
-            || (!self.objects.is_empty()
-                && self.objects.traverse(ray, |object, ray| {
-                    match self.instances.get(object as usize) {
-                        Some(instance) => instance.occluded(&self.prototypes[instance.prototype as usize], ray),
-                        None => self.quadrics[object as usize - self.instances.len()].0.intersect(ray).is_some(),
-                    }
-                    .then_some(0.0)
-                }))
+        self.world.occluded(ray) || (!self.objects.is_empty() && self.occluded_by_object(ray))
+    }
+
+    /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
+    #[inline(never)]
+    fn occluded_by_object(&self, ray: &Ray) -> bool {
+        self.objects.traverse(ray, |object, ray| {
+            match self.instances.get(object as usize) {
+                Some(instance) => instance.occluded(&self.prototypes[instance.prototype as usize], ray),
+                None => self.quadrics[object as usize - self.instances.len()].0.intersect(ray).is_some(),
+            }
+            .then_some(0.0)
+        })
     }
 
     /// Nearest hit of one instance or quadric.
@@ -162,19 +172,30 @@ impl Geometry {
     }
 
     /// The surface at a hit of `ray`, and whose it is (with the emitter of this very triangle).
-    #[inline]
+    #[inline(always)]
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
+        if hit.object == WORLD {
+            let TriangleHit { u, v, triangle, .. } = hit.triangle;
+            let Origin { part, triangle, ng } = self.origin[triangle as usize];
+            let part = &self.parts[part as usize];
+            if !part.mesh.has_attributes() {
+                return (flat_surface(self.world.vertices(&hit.triangle), u, v, ng), part.owner.of_triangle(triangle));
+            }
+        }
+        self.surface_in_full(ray, hit)
+    }
+
+    /// The same of all but plain triangles: apart from these, so that they do not pass through memory for its sake.
+    #[inline(never)]
+    fn surface_in_full(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
         let TriangleHit { u, v, triangle, .. } = hit.triangle;
         if hit.object == WORLD {
             let Origin { part, triangle, ng } = self.origin[triangle as usize];
             let part = &self.parts[part as usize];
-            let owner = part.owner.of_triangle(triangle);
             let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng);
-            if !part.mesh.has_attributes() {
-                return (flat, owner);
-            }
             let (p, attributes) = corners(&part.mesh, triangle);
-            return (with_attributes(flat, p, u, v, &attributes, part.flip), owner);
+            let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
+            return (surface, part.owner.of_triangle(triangle));
         }
         match self.instances.get(hit.object as usize) {
             Some(instance) => {
@@ -213,6 +234,7 @@ impl Geometry {
 }
 
 impl Owner {
+    #[inline(always)]
     fn of_triangle(self, triangle: u32) -> Self {
         Self { emitter: self.emitter.map(|first| first + triangle), ..self }
     }

@@ -27,8 +27,8 @@ pub struct Interface {
     before: Option<u32>,
     /// Behind it.
     behind: Option<u32>,
-    /// The interiors on the other side than the path's.
-    pub across: Inside,
+    /// The interiors on the other side than the path's, where they are others.
+    pub across: Option<Inside>,
 }
 
 impl Media {
@@ -61,6 +61,9 @@ impl Media {
     /// Where the vertex lies on the surface of an interior: what it is to a path in `inside`.
     #[inline]
     fn meet(&self, inside: &Inside, vertex: &Vertex) -> Option<Meeting> {
+        if self.interiors.is_empty() {
+            return None;
+        }
         self.of(vertex.material).map(|id| inside.meet(id, vertex.front, &self.interiors))
     }
 
@@ -74,13 +77,13 @@ impl Media {
         self.meet(inside, vertex).filter(|meeting| !meeting.is_true).map(|meeting| meeting.across)
     }
 
-    /// The two sides of the vertex for a path in `inside`. A surface that encloses nothing has `inside` on both.
+    /// The two sides of the vertex for a path in `inside`.
     #[inline]
     pub fn interface(&self, inside: &Inside, vertex: &Vertex) -> Interface {
         match self.meet(inside, vertex) {
-            None => Interface { before: None, behind: None, across: inside.clone() },
-            Some(meeting) => {
-                Interface { before: meeting.before, behind: self.of(vertex.material), across: meeting.across }
+            None => Interface::default(),
+            Some(Meeting { before, across, .. }) => {
+                Interface { before, behind: self.of(vertex.material), across: Some(across) }
             }
         }
     }

@@ -87,13 +87,20 @@ impl Scene {
     /// that are hidden in others. What is there stays the same all along.
     #[inline]
     pub fn intersect_from(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
+        if self.has_holes || !inside.is_empty() {
+            return self.intersect_seen(ray, inside, u);
+        }
+        let hit = self.geometry.nearest(ray)?;
+        Some(self.vertex(ray, &hit))
+    }
+
+    /// The same where not everything that is met is seen.
+    #[inline(never)]
+    fn intersect_seen(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
         let mut ray = *ray;
         loop {
             let hit = self.geometry.nearest(&ray)?;
             let vertex = self.vertex(&ray, &hit);
-            if !self.has_holes && inside.is_empty() {
-                return Some(vertex);
-            }
             match self.media.hidden(inside, &vertex) {
                 Some(across) => *inside = across,
                 None => {
@@ -179,7 +186,7 @@ impl Scene {
         &self.info
     }
 
-    #[inline]
+    #[inline(always)]
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let (surface, owner) = self.geometry.surface(ray, hit);
         let wo = -ray.d;

@@ -16,7 +16,7 @@ mod traverse;
 pub(super) use ray::KernelRay;
 pub(super) use stack::Stack;
 
-use super::node::{Node, TriangleLeaf};
+use super::node::{Node, TriangleLeaf, WIDTH};
 use super::triangles::TriangleHit;
 use std::sync::OnceLock;
 
@@ -73,5 +73,16 @@ pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &
         // SAFETY: as above.
         Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray) },
         _ => portable::occluded(nodes, leaves, ray),
+    }
+}
+
+/// Lanes of a node whose box the ray may meet before `t_max`, a bit each, and where it enters them.
+#[inline]
+pub(super) fn enter(isa: Isa, node: &Node, ray: &KernelRay, t_max: f32) -> (u32, [f32; WIDTH]) {
+    match isa {
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Isa::Avx2 => unsafe { avx2::enter(node, ray, t_max) },
+        _ => portable::enter(node, ray, t_max),
     }
 }

@@ -4,12 +4,18 @@ use crate::bvh::node::TriangleLeaf;
 use crate::math::Ray;
 use glam::{DVec3, Vec3};
 
+/// Widening of a slab's far side: 1 + 2 γ₃ (Ize 2013, "Robust BVH Ray Traversal") and the rounding of its product with
+/// 1/d, rounded up.
+const FAR: f32 = 1.0 + 5e-7;
+
 /// A ray with what every box and triangle test of it shares.
 #[derive(Clone, Copy, Debug)]
 pub(in crate::bvh) struct KernelRay {
     pub(in crate::bvh) o: [f32; 3],
     pub(in crate::bvh) d: [f32; 3],
     pub(in crate::bvh) d_inv: [f32; 3],
+    /// The same, [`FAR`] times.
+    pub(in crate::bvh) d_inv_far: [f32; 3],
     /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
     pub(in crate::bvh) near: [usize; 3],
     /// Permutation of the axes: the third is the one along which the direction is longest (Woop et al. 2013).
@@ -32,6 +38,7 @@ impl KernelRay {
             o: o.to_array(),
             d: d.to_array(),
             d_inv: d_inv.to_array(),
+            d_inv_far: (d_inv * FAR).to_array(),
             near: std::array::from_fn(|axis| 2 * axis + usize::from(d_inv[axis] < 0.0)),
             axes: [kx, ky, kz],
             shear: [d[kx] * d_inv[kz], d[ky] * d_inv[kz], d_inv[kz]],

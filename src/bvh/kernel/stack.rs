@@ -10,12 +10,10 @@ pub(in crate::bvh) struct Stack {
 }
 
 impl Stack {
-    /// Holds the root.
+    /// Holds nothing.
     #[inline(always)]
     pub(in crate::bvh) fn new() -> Self {
-        let mut stack = Self { items: [const { MaybeUninit::uninit() }; STACK], size: 0 };
-        stack.push((0.0, 0));
-        stack
+        Self { items: [const { MaybeUninit::uninit() }; STACK], size: 0 }
     }
 
     /// Entries held.

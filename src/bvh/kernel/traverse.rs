@@ -7,9 +7,6 @@ macro_rules! kernels {
         use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::TriangleHit;
 
-        /// Relative widening of a slab's far side: 2 γ₃ rounded up (Ize 2013, "Robust BVH Ray Traversal").
-        const FAR: f32 = 1.0 + 4e-7;
-
         /// γ₂, γ₃ and γ₅ (`math::gamma`).
         const G2: Factor = Factor(crate::math::gamma(2));
         const G3: Factor = Factor(crate::math::gamma(3));
@@ -30,17 +27,24 @@ macro_rules! kernels {
         #[inline]
         $(#[$isa])?
         fn boxes(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, Lanes) {
-            let slab = |axis: usize, plane: usize| {
-                Lanes::load(&node.planes[plane]).sub(Lanes::splat(ray.o[axis])).mul(Lanes::splat(ray.d_inv[axis]))
+            let slab = |axis: usize, plane: usize, d_inv: f32| {
+                Lanes::load(&node.planes[plane & 7]).sub(Lanes::splat(ray.o[axis])).mul(Lanes::splat(d_inv))
             };
             // 0 · ∞ (a ray inside the plane of a slab) is NaN: min and max then keep their second operand.
             let mut near = Lanes::splat(0.0);
             let mut far = Lanes::splat(t_max);
             for axis in 0..3 {
-                near = slab(axis, ray.near[axis] & 7).max(near);
-                far = slab(axis, (ray.near[axis] ^ 1) & 7).mul(Lanes::splat(FAR)).min(far);
+                near = slab(axis, ray.near[axis], ray.d_inv[axis]).max(near);
+                far = slab(axis, ray.near[axis] ^ 1, ray.d_inv_far[axis]).min(far);
             }
             (near.le(far), near)
+        }
+
+        /// Boxes that are met; see [`super::enter`].
+        $(#[$isa])?
+        pub(super) fn enter(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, [f32; WIDTH]) {
+            let (met, near) = boxes(node, ray, t_max);
+            (met, near.to_array())
         }
 
         /// Lanes whose triangle the ray hits in (0, t_max), with t, and the barycentric coordinates of v1 and v2 times the
@@ -68,25 +72,22 @@ macro_rules! kernels {
             let mut v = ax.mul(cy).sub(ay.mul(cx));
             let mut w = bx.mul(ay).sub(by.mul(ax));
             let zero = Lanes::splat(0.0);
-            if u.mul(v).mul(w).eq(zero) != 0 {
-                let exact = |a: Lanes, b: Lanes, c: Lanes, d: Lanes| {
-                    let (a, b, c, d) = (a.to_array(), b.to_array(), c.to_array(), d.to_array());
-                    Lanes::load(&std::array::from_fn(|i| {
-                        (f64::from(a[i]) * f64::from(b[i]) - f64::from(c[i]) * f64::from(d[i])) as f32
-                    }))
-                };
-                u = exact(cx, by, cy, bx);
-                v = exact(ax, cy, ay, cx);
-                w = exact(bx, ay, by, ax);
+            let one_sided = |u: Lanes, v: Lanes, w: Lanes| {
+                let (negative, positive) = (u.min(v).min(w).lt(zero), zero.lt(u.max(v).max(w)));
+                (!(negative & positive) & 0xff, negative | positive)
+            };
+            let (mut candidates, mut sided) = one_sided(u, v, w);
+            if u.mul(v).mul(w).eq(zero) & candidates != 0 {
+                (u, v, w) = (exact(cx, by, cy, bx), exact(ax, cy, ay, cx), exact(bx, ay, by, ax));
+                (candidates, sided) = one_sided(u, v, w);
             }
-            let negative = u.min(v).min(w).lt(zero);
-            let positive = zero.lt(u.max(v).max(w));
-            let candidates = !(negative & positive) & (negative | positive) & 0xff;
+            let candidates = candidates & sided;
             if candidates == 0 {
                 return (0, [zero; 4]);
             }
             let det = u.add(v).add(w);
-            let mut t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).div(det);
+            let det_inv = Lanes::splat(1.0).div(det);
+            let mut t = u.mul(az).add(v.mul(bz)).add(w.mul(cz)).mul(det_inv);
 
             // Error bound of t (PBRT 4th ed., section 6.8.7): it grows with the triangle's extent in the sheared space.
             // Within it, f32 does not tell on which side of the origin, or of the ray's end, a triangle is: f64 does.
@@ -96,25 +97,45 @@ macro_rules! kernels {
             let (dx, dy, dz) = (G5.times(mx.add(mz)), G5.times(my.add(mz)), G3.times(mz));
             let de = G2.times(mx.mul(my)).add(dy.mul(mx)).add(dx.mul(my));
             let de = de.add(de);
-            let dt = G3.times(me.mul(mz)).add(de.mul(mz)).add(dz.mul(me)).div(det.abs());
+            let dt = G3.times(me.mul(mz)).add(de.mul(mz)).add(dz.mul(me)).mul(det_inv.abs());
             let dt = dt.add(dt).add(dt);
             let end = Lanes::splat(t_max);
             let possible = candidates & zero.sub(dt).le(t) & t.sub(dt).le(end);
             let certain = possible & dt.lt(t) & t.lt(end.sub(dt));
             let mut hits = certain;
-            let mut doubtful = possible & !certain;
+            let doubtful = possible & !certain;
             if doubtful != 0 {
-                let mut exact = t.to_array();
-                while doubtful != 0 {
-                    let lane = doubtful.trailing_zeros() as usize & 7;
-                    doubtful &= doubtful - 1;
-                    let Some(t) = ray.plane_ahead(leaf, lane) else { continue };
-                    exact[lane] = t as f32;
-                    hits |= u32::from(exact[lane] < t_max) << lane;
-                }
-                t = Lanes::load(&exact);
+                let (more, exact) = decide(leaf, ray, t_max, doubtful, t);
+                (hits, t) = (hits | more, exact);
             }
-            (hits, [t, v, w, det])
+            (hits, [t, v, w, det_inv])
+        }
+
+        /// a b − c d in f64.
+        #[cold]
+        #[inline(never)]
+        $(#[$isa])?
+        fn exact(a: Lanes, b: Lanes, c: Lanes, d: Lanes) -> Lanes {
+            let (a, b, c, d) = (a.to_array(), b.to_array(), c.to_array(), d.to_array());
+            Lanes::load(&std::array::from_fn(|i| {
+                (f64::from(a[i]) * f64::from(b[i]) - f64::from(c[i]) * f64::from(d[i])) as f32
+            }))
+        }
+
+        /// Decides the `doubtful` lanes in f64: those that are hit in (0, t_max), and t with theirs corrected.
+        #[cold]
+        #[inline(never)]
+        $(#[$isa])?
+        fn decide(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32, mut doubtful: u32, t: Lanes) -> (u32, Lanes) {
+            let (mut hits, mut exact) = (0, t.to_array());
+            while doubtful != 0 {
+                let lane = doubtful.trailing_zeros() as usize & 7;
+                doubtful &= doubtful - 1;
+                let Some(t) = ray.plane_ahead(leaf, lane) else { continue };
+                exact[lane] = t as f32;
+                hits |= u32::from(exact[lane] < t_max) << lane;
+            }
+            (hits, Lanes::load(&exact))
         }
 
         /// Nearest hit; see [`super::nearest`].
@@ -123,16 +144,14 @@ macro_rules! kernels {
             let mut stack = Stack::new();
             let mut t_max = ray.t_max;
             let mut found = false;
-            while let Some((near, child)) = stack.pop() {
-                if near > t_max {
-                    continue;
-                }
+            let mut child = 0;
+            loop {
                 if child & LEAF != 0 {
                     // Keep the nearest triangle of the leaf.
                     let leaf = &leaves[(child & !LEAF) as usize];
-                    let (mut hits, found_lanes) = triangles(leaf, ray, t_max);
+                    let (mut hits, [t, v, w, det_inv]) = triangles(leaf, ray, t_max);
                     if hits != 0 {
-                        let [t, v, w, det] = [found_lanes[0].to_array(), found_lanes[1].to_array(), found_lanes[2].to_array(), found_lanes[3].to_array()];
+                        let [t, v, w, det_inv] = [t.to_array(), v.to_array(), w.to_array(), det_inv.to_array()];
                         while hits != 0 {
                             let lane = hits.trailing_zeros() as usize & 7;
                             hits &= hits - 1;
@@ -140,8 +159,8 @@ macro_rules! kernels {
                                 t_max = t[lane];
                                 *hit = TriangleHit {
                                     t: t[lane],
-                                    u: v[lane] / det[lane],
-                                    v: w[lane] / det[lane],
+                                    u: v[lane] * det_inv[lane],
+                                    v: w[lane] * det_inv[lane],
                                     triangle: leaf.id[lane],
                                     slot: (child & !LEAF) * WIDTH as u32 + lane as u32,
                                 };
@@ -149,42 +168,81 @@ macro_rules! kernels {
                             }
                         }
                     }
-                    continue;
+                } else {
+                    // Go on to the nearest child that is met, and keep the others.
+                    let node = &nodes[child as usize];
+                    let (mut met, near) = boxes(node, ray, t_max);
+                    if met != 0 {
+                        let near = near.to_array();
+                        let mut take = || {
+                            let lane = met.trailing_zeros() as usize & 7;
+                            met &= met - 1;
+                            ((near[lane], node.child[lane]), met != 0)
+                        };
+                        let (first, more) = take();
+                        if !more {
+                            child = first.1;
+                            continue;
+                        }
+                        let (second, mut more) = take();
+                        let (nearer, farther) = if second.0 < first.0 { (second, first) } else { (first, second) };
+                        if !more {
+                            stack.push(farther);
+                            child = nearer.1;
+                            continue;
+                        }
+                        let from = stack.len();
+                        stack.push(farther);
+                        stack.push(nearer);
+                        while more {
+                            let (next, any) = take();
+                            stack.insert(from, next);
+                            more = any;
+                        }
+                    }
                 }
-                // Push the children that are met, the nearest on top.
-                let node = &nodes[child as usize];
-                let (mut met, near) = boxes(node, ray, t_max);
-                let near = near.to_array();
-                let first = stack.len();
-                while met != 0 {
-                    let lane = met.trailing_zeros() as usize & 7;
-                    met &= met - 1;
-                    stack.insert(first, (near[lane], node.child[lane]));
-                }
+                child = loop {
+                    match stack.pop() {
+                        None => return found,
+                        Some((near, child)) if near <= t_max => break child,
+                        Some(_) => {}
+                    }
+                };
             }
-            found
         }
 
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
         pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
             let mut stack = Stack::new();
-            while let Some((_, child)) = stack.pop() {
+            let mut child = 0;
+            loop {
                 if child & LEAF != 0 {
                     if triangles(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
                         return true;
                     }
-                    continue;
+                } else {
+                    // Go on to the last child that is met, and keep the others.
+                    let node = &nodes[child as usize];
+                    let (mut met, _) = boxes(node, ray, ray.t_max);
+                    if met != 0 {
+                        loop {
+                            let lane = met.trailing_zeros() as usize & 7;
+                            met &= met - 1;
+                            if met == 0 {
+                                child = node.child[lane];
+                                break;
+                            }
+                            stack.push((0.0, node.child[lane]));
+                        }
+                        continue;
+                    }
                 }
-                let node = &nodes[child as usize];
-                let (mut met, _) = boxes(node, ray, ray.t_max);
-                while met != 0 {
-                    let lane = met.trailing_zeros() as usize & 7;
-                    met &= met - 1;
-                    stack.push((0.0, node.child[lane]));
+                match stack.pop() {
+                    None => return false,
+                    Some((_, next)) => child = next,
                 }
             }
-            false
         }
     };
 }
