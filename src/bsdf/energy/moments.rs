@@ -4,7 +4,7 @@ use super::axes::abscissa;
 use super::grid::Grid;
 use super::interface::Interface;
 use super::quadrature::Rule;
-use super::table::{EnergyTable, Slice, mean_row, means, nodes, over_cosine};
+use super::table::{EnergyTable, Slice, mean_row, means, n_alpha, nodes, over_cosine};
 use crate::bsdf::angular::{Angular, TERMS, polynomials};
 use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};
@@ -78,7 +78,7 @@ impl EnergyTable {
         let Self { interface, anisotropic, .. } = *self;
         let rule = Rule::new::<12, 12>();
         let grid = nodes(
-            N_MU,
+            [N_MU, n_alpha(interface)],
             |mu, alpha| place(interface, mu, alpha),
             anisotropic,
             |mu, phi, _, a| {
@@ -87,7 +87,7 @@ impl EnergyTable {
                 Terms::new(std::array::from_fn(|j| (m[j] - m[0] * smooth[j]) as f32))
             },
         );
-        let means = means(anisotropic, |row, alpha| {
+        let means = means(n_alpha(interface), anisotropic, |row, alpha| {
             over_cosine(interface, alpha, |mu| {
                 let kept = 1.0 - self.energy(mu, alpha, row).loss;
                 moments_at(grid.at(place(interface, mu, alpha), row), mu, kept)

@@ -15,8 +15,13 @@ use std::sync::{LazyLock, Mutex, OnceLock, PoisonError};
 
 /// Nodes in μ; twice as many where there is a critical angle.
 const N_MU: usize = 48;
-/// Nodes in ln α.
-const N_ALPHA: usize = 40;
+/// Nodes in ln α. Gaussian slopes begin to lose energy far more suddenly.
+pub(super) fn n_alpha(interface: Interface) -> usize {
+    match interface {
+        Interface::BeckmannMirror => 100,
+        Interface::Mirror | Interface::Dielectric { .. } => 40,
+    }
+}
 /// Nodes in azimuth.
 const N_AZIMUTH: usize = 33;
 /// Nodes of the means in ln α.
@@ -67,14 +72,14 @@ impl Slice {
     pub fn isotropic(table: &'static EnergyTable, alpha: f32) -> Self {
         let t = log_alpha(alpha);
         let mean = unpack_mean(Stencil::new(t, N_MEANS).over(&table.means));
-        Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, N_ALPHA), mean)
+        Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, n_alpha(table.interface)), mean)
     }
 
     /// Any pair of roughnesses of a mirroring microsurface, without a table of its own; `table` is that of the isotropic ones.
     #[inline]
     pub fn anisotropic(atlas: &'static Atlas, table: &'static EnergyTable, ggx: Ggx) -> Self {
         let pair = Pair::new(ggx);
-        let slice = Self::with(table, ggx, Stencil::new(0.0, N_ALPHA), atlas.mean(&pair));
+        let slice = Self::with(table, ggx, Stencil::new(0.0, n_alpha(table.interface)), atlas.mean(&pair));
         Self { atlas: Some((atlas, pair)), ..slice }
     }
 
@@ -109,7 +114,7 @@ impl Slice {
         match self.atlas {
             None => (alpha, Stencil::new(t, N_AZIMUTH)),
             // As if the roughness that the azimuth meets were all there is.
-            Some(_) => (alpha, Stencil::new(log_alpha(alpha), N_ALPHA)),
+            Some(_) => (alpha, Stencil::new(log_alpha(alpha), n_alpha(self.table.interface))),
         }
     }
 }
@@ -153,10 +158,10 @@ impl EnergyTable {
         let rule = if interface.critical() > 0.0 { Rule::new::<12, 24>() } else { Rule::new::<12, 16>() };
         let n_mu = if interface.critical() > 0.0 { 2 * N_MU } else { N_MU };
         let place = |mu: f32, alpha: f32| abscissa(interface, mu, alpha);
-        let grid = nodes(n_mu, place, anisotropic, |mu, phi, alpha, a| {
+        let grid = nodes([n_mu, n_alpha(interface)], place, anisotropic, |mu, phi, alpha, a| {
             pack(interface, interface.integrate(&rule, mu, phi, a), mu, alpha)
         });
-        let means = means(anisotropic, |row, alpha| mean_over_cosine(interface, &grid, row, alpha));
+        let means = means(n_alpha(interface), anisotropic, |row, alpha| mean_over_cosine(interface, &grid, row, alpha));
         let means = means.into_iter().map(pack_mean).collect();
         Self { interface, anisotropic, moments: OnceLock::new(), grid, means }
     }
@@ -164,7 +169,7 @@ impl EnergyTable {
 
 /// A grid whose nodes are functions of μ, azimuth, the roughness that it meets, and α. `place` says where μ stands.
 pub(super) fn nodes<T: Value>(
-    n_mu: usize,
+    [n_mu, n_alpha]: [usize; 2],
     place: impl Fn(f32, f32) -> f32 + Sync,
     anisotropic: Option<Ggx>,
     f: impl Fn(f32, f64, f32, [f32; 2]) -> T + Sync,
@@ -173,8 +178,8 @@ pub(super) fn nodes<T: Value>(
         f(invert(i as f32 / (n_mu - 1) as f32, |mu| place(mu, alpha)), phi, alpha, a)
     };
     match anisotropic {
-        None => Grid::tabulate(n_mu, N_ALPHA, |i, j| {
-            let alpha = alpha_of(j as f32 / (N_ALPHA - 1) as f32);
+        None => Grid::tabulate(n_mu, n_alpha, |i, j| {
+            let alpha = alpha_of(j as f32 / (n_alpha - 1) as f32);
             node(i, 0.0, alpha, [alpha; 2])
         }),
         Some(ggx) => {
@@ -196,11 +201,15 @@ pub(super) fn nodes<T: Value>(
 }
 
 /// Means over the hemisphere, of those over μ in a row at a roughness: at equidistant ln α, or one over the azimuth.
-pub(super) fn means<const K: usize>(anisotropic: Option<Ggx>, row: impl Fn(Stencil, f32) -> [f64; K]) -> Vec<[f64; K]> {
+pub(super) fn means<const K: usize>(
+    n_alpha: usize,
+    anisotropic: Option<Ggx>,
+    row: impl Fn(Stencil, f32) -> [f64; K],
+) -> Vec<[f64; K]> {
     let Some(ggx) = anisotropic else {
         let mean = |k| {
             let alpha = alpha_of(k as f32 / (N_MEANS - 1) as f32);
-            row(Stencil::new(log_alpha(alpha), N_ALPHA), alpha)
+            row(Stencil::new(log_alpha(alpha), n_alpha), alpha)
         };
         return (0..N_MEANS).map(mean).collect();
     };
@@ -308,8 +317,8 @@ mod tests {
             EnergyTable::isotropic(interface);
             let elapsed = start.elapsed();
             let mut worst = [0.0f32; 3];
-            for j in 0..=12 {
-                let alpha = 10f32.powf(-4.0 + j as f32 / 3.0);
+            for j in 0..=31 {
+                let alpha = 10f32.powf(-4.0 + j as f32 * (4.0 / 31.0));
                 let slice = Slice::new(interface, Ggx { ax: alpha, ay: alpha });
                 let critical = (-10..=10).map(|i| interface.critical() + alpha * i as f32);
                 let mus = (1..=30).map(|i| (i as f32 / 30.0).powi(4)).chain(critical);

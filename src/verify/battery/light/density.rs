@@ -160,7 +160,9 @@ impl Placed {
         let off = |h: &(f32, Surface)| (h.0 - s.distance).abs();
         let (t, hit) = first.into_iter().chain(second).min_by(|a, b| off(a).total_cmp(&off(b)))?;
         let cos = s.wi.dot(hit.ng).abs();
-        if cos < 1e-3 || off(&(t, hit)) > 1e-2 * t + 1e-5 * (self.p.length() + hit.p.length()) / cos {
+        // As far as rounding moves a hit.
+        let near = 1e-5 * (self.p.length() + hit.p.length()) / cos;
+        if cos < 1e-3 || off(&(t, hit)) > 1e-2 * t + near {
             return None;
         }
 
@@ -180,9 +182,10 @@ impl Placed {
             }
         }
 
-        // Nothing of the light is met in the last hundredth of the shadow ray, if its point is seen at all.
+        // Nothing of the light is met in the last hundredth of the shadow ray, if its point is seen at all: near a silhouette
+        // rounding may lose the farther of two hits, and the point may be that one.
         let alone = second.is_none_or(|(t2, _)| t2 > 1.05 * first.map_or(0.0, |(t, _)| t));
-        let nearest = first.is_some_and(|first| off(&first) <= off(&(t, hit)));
+        let nearest = first.is_some_and(|first| off(&first) <= off(&(t, hit)) && off(&first) <= near);
         let end = Ray { t_max: 0.01 * s.distance, ..Ray::new(self.p + s.wi * (0.99 * s.distance), s.wi) };
         Some(Compared {
             deviation: f64::from(deviation).max(0.0),
