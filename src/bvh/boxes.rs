@@ -20,7 +20,7 @@ impl BoxBvh {
     pub fn build(boxes: &[Aabb]) -> Self {
         let tree = build(boxes);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
-        Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::detect() }
+        Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::in_use() }
     }
 
     /// Asks `hit(id, ray)` of the contents of every box that the ray may meet, near ones first. `hit` returns the

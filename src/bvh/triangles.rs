@@ -57,7 +57,7 @@ impl TriangleBvh {
             leaves: leaves.collect(),
             bounds: boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b)),
             nodes: tree.nodes,
-            isa: Isa::detect(),
+            isa: Isa::in_use(),
         }
     }
 

@@ -40,6 +40,7 @@ enum Command {
 
 /// Does what the arguments say.
 pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
+    radianza::bvh::Isa::chosen().map_err(Failure::Usage)?;
     match &cli.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Info(arguments) => info::run(arguments),

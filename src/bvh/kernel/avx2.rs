@@ -2,73 +2,12 @@
 
 use std::arch::x86_64::*;
 
-/// Eight f32 lanes in a register.
-#[derive(Clone, Copy)]
-struct Lanes(__m256);
-
-macro_rules! lanewise {
-    ($($name:ident: $intrinsic:ident;)*) => {$(
-        #[inline]
-        #[target_feature(enable = "avx2")]
-        fn $name(self, other: Self) -> Self {
-            Self($intrinsic(self.0, other.0))
-        }
-    )*};
+/// Bit i: the comparison holds in lane i.
+#[inline]
+#[target_feature(enable = "avx2")]
+fn mask<const PREDICATE: i32>(a: __m256, b: __m256) -> u32 {
+    _mm256_movemask_ps(_mm256_cmp_ps::<PREDICATE>(a, b)) as u32
 }
 
-macro_rules! compare {
-    ($($name:ident: $predicate:ident;)*) => {$(
-        #[inline]
-        #[target_feature(enable = "avx2")]
-        fn $name(self, other: Self) -> u32 {
-            _mm256_movemask_ps(_mm256_cmp_ps::<$predicate>(self.0, other.0)) as u32
-        }
-    )*};
-}
-
-impl Lanes {
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn splat(x: f32) -> Self {
-        Self(_mm256_set1_ps(x))
-    }
-
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn load(from: &[f32; 8]) -> Self {
-        // SAFETY: the reference covers the 32 bytes that are read; the load asks for no alignment.
-        Self(unsafe { _mm256_loadu_ps(from.as_ptr()) })
-    }
-
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn to_array(self) -> [f32; 8] {
-        let mut out = [0.0; 8];
-        // SAFETY: the array covers the 32 bytes that are written; the store asks for no alignment.
-        unsafe { _mm256_storeu_ps(out.as_mut_ptr(), self.0) };
-        out
-    }
-
-    #[inline]
-    #[target_feature(enable = "avx2")]
-    fn abs(self) -> Self {
-        Self(_mm256_andnot_ps(_mm256_set1_ps(-0.0), self.0))
-    }
-
-    lanewise! {
-        add: _mm256_add_ps;
-        sub: _mm256_sub_ps;
-        mul: _mm256_mul_ps;
-        div: _mm256_div_ps;
-        min: _mm256_min_ps;
-        max: _mm256_max_ps;
-    }
-
-    compare! {
-        lt: _CMP_LT_OQ;
-        le: _CMP_LE_OQ;
-        eq: _CMP_EQ_OQ;
-    }
-}
-
+super::register::lanes!("avx2");
 super::traverse::kernels!(#[target_feature(enable = "avx2")]);

@@ -7,9 +7,13 @@
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
 mod lanes;
 mod portable;
 mod ray;
+#[cfg(target_arch = "x86_64")]
+mod register;
 mod stack;
 mod traverse;
 
@@ -20,31 +24,65 @@ use super::node::{Node, TriangleLeaf, WIDTH};
 use super::triangles::TriangleHit;
 use std::sync::OnceLock;
 
-/// Instruction sets that a kernel exists for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Instruction sets that a kernel exists for, the better the later.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Isa {
     /// Plain arrays that the compiler vectorises for the baseline of the target.
     Portable,
     /// 256-bit AVX2 (x86-64).
     Avx2,
+    /// AVX-512 with 256-bit vectors (x86-64).
+    Avx512,
 }
 
 impl Isa {
+    /// All, and what each is called.
+    pub const ALL: [(Self, &str); 3] = [(Self::Portable, "portable"), (Self::Avx2, "avx2"), (Self::Avx512, "avx512")];
+
+    /// Name of the environment variable that chooses one.
+    pub const VARIABLE: &str = "RADIANZA_ISA";
+
     /// The best that this CPU runs.
     pub fn detect() -> Self {
         static FOUND: OnceLock<Isa> = OnceLock::new();
         *FOUND.get_or_init(|| {
             #[cfg(target_arch = "x86_64")]
             if is_x86_feature_detected!("avx2") {
-                return Isa::Avx2;
+                let more = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512vl");
+                return if more { Isa::Avx512 } else { Isa::Avx2 };
             }
             Isa::Portable
         })
     }
 
+    /// The one that [`VARIABLE`](Self::VARIABLE) names, else the best.
+    ///
+    /// # Errors
+    /// It names none, or one that this CPU does not run.
+    pub fn chosen() -> Result<Self, String> {
+        static CHOSEN: OnceLock<Result<Isa, String>> = OnceLock::new();
+        let choose = || match std::env::var_os(Self::VARIABLE) {
+            None => Ok(Self::detect()),
+            Some(wanted) => match Self::ALL.into_iter().find(|(_, name)| wanted.as_os_str() == *name) {
+                Some((isa, _)) if isa.is_available() => Ok(isa),
+                Some((_, name)) => Err(format!("{} is {name}, which this CPU does not run", Self::VARIABLE)),
+                None => {
+                    let names = Self::ALL.map(|(_, name)| name).join(", ");
+                    Err(format!("{} is {wanted:?}, which is none of {names}", Self::VARIABLE))
+                }
+            },
+        };
+        CHOSEN.get_or_init(choose).clone()
+    }
+
+    /// The same, or the best where it cannot be: those who trace have no one to tell.
+    pub(super) fn in_use() -> Self {
+        Self::chosen().unwrap_or_else(|_| Self::detect())
+    }
+
     /// Whether this CPU runs it.
     pub fn is_available(self) -> bool {
-        self == Isa::Portable || self == Isa::detect()
+        self <= Self::detect()
     }
 }
 
@@ -59,8 +97,11 @@ pub(super) fn nearest(
 ) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
-        // SAFETY: `Isa::Avx2` reaches a tree only through `Isa::detect` or `is_available`, which saw the feature.
+        // SAFETY: an `Isa` reaches a tree only through `Isa::in_use` or `is_available`, which saw the features.
         Isa::Avx2 => unsafe { avx2::nearest(nodes, leaves, ray, hit) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Isa::Avx512 => unsafe { avx512::nearest(nodes, leaves, ray, hit) },
         _ => portable::nearest(nodes, leaves, ray, hit),
     }
 }
@@ -72,6 +113,9 @@ pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray) },
         _ => portable::occluded(nodes, leaves, ray),
     }
 }
@@ -83,6 +127,9 @@ pub(super) fn enter(isa: Isa, node: &Node, ray: &KernelRay, t_max: f32) -> (u32,
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
         Isa::Avx2 => unsafe { avx2::enter(node, ray, t_max) },
+        #[cfg(target_arch = "x86_64")]
+        // SAFETY: as above.
+        Isa::Avx512 => unsafe { avx512::enter(node, ray, t_max) },
         _ => portable::enter(node, ray, t_max),
     }
 }
