@@ -1,0 +1,149 @@
+//! Mrays/s of nearest-hit and occlusion queries on five scenes, beside Embree where `EMBREE_LIB` names its library.
+//!
+//! ```text
+//! cargo bench --bench rays                                              # ours alone
+//! EMBREE_LIB=…/libembree4.so.4 cargo bench --bench rays                 # and Embree, medium and high quality, fast and robust
+//! cargo bench --bench rays -- terrain                                   # scenes with this in their name
+//! ```
+//!
+//! One thread, its CPU time, all contenders in turn on the same rays of one process, medians of eleven turns. A ratio of 1.25 is
+//! a quarter more rays in the same time. Also prints the seconds that each tree took to build, and how often hits differ.
+
+mod embree;
+mod scenes;
+
+use cpu_time::ThreadTime;
+use embree::{Embree, Quality};
+use radianza::bvh::{Isa, TriangleBvh};
+use radianza::math::Ray;
+use scenes::{Meshed, Query, RaySet};
+use std::hint::black_box;
+
+const TURNS: usize = 11;
+
+/// Number of rays that meet something, and Σ t of nearest hits.
+type Answer<'a> = Box<dyn Fn(Query, &[Ray]) -> (usize, f64) + 'a>;
+
+/// Something that answers both queries.
+struct Contender<'a> {
+    name: String,
+    answer: Answer<'a>,
+}
+
+fn main() {
+    let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let library = std::env::var_os("EMBREE_LIB").map(|path| {
+        Embree::load(&path).unwrap_or_else(|e| {
+            eprintln!("EMBREE_LIB: {}: {e}", path.display());
+            std::process::exit(1)
+        })
+    });
+    if library.is_none() {
+        println!("EMBREE_LIB is not set: without Embree");
+    }
+    let mut sums: Vec<Geometric> = Vec::new();
+    for scene in scenes::all().filter(|s| wanted.is_empty() || wanted.iter().any(|w| s.name.contains(w.as_str()))) {
+        race(&scene, library.as_ref(), &mut sums);
+    }
+    println!("\ngeometric means over all sets");
+    for sum in sums {
+        println!("  {:32} {:.3}", sum.name, (sum.log / f64::from(sum.n)).exp());
+    }
+}
+
+/// A geometric mean as it grows.
+struct Geometric {
+    name: String,
+    log: f64,
+    n: u32,
+}
+
+fn add(sums: &mut Vec<Geometric>, name: String, ratio: f64) {
+    match sums.iter_mut().find(|s| s.name == name) {
+        Some(sum) => (sum.log, sum.n) = (sum.log + ratio.ln(), sum.n + 1),
+        None => sums.push(Geometric { name, log: ratio.ln(), n: 1 }),
+    }
+}
+
+fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
+    let Meshed { name, positions, indices, .. } = scene;
+    println!("\n{name}: {} triangles", indices.len());
+    let start = std::time::Instant::now();
+    let bvh = TriangleBvh::build(positions, indices);
+    let per_triangle = bvh.memory() as f64 / indices.len() as f64;
+    println!("  built in {:.2} s, {per_triangle:.0} bytes a triangle", start.elapsed().as_secs_f64());
+    let sets = scene.rays(&bvh);
+
+    let mut contenders = Vec::new();
+    for (isa, isa_name) in Isa::ALL {
+        let Some(bvh) = TriangleBvh::build(positions, indices).with_isa(isa) else { continue };
+        contenders
+            .push(Contender { name: isa_name.into(), answer: Box::new(move |query, rays| ours(&bvh, query, rays)) });
+    }
+    let best_of_ours = contenders.len() - 1;
+    if let Some(library) = library {
+        for (quality, robust) in
+            [(Quality::Medium, false), (Quality::High, false), (Quality::Medium, true), (Quality::High, true)]
+        {
+            let start = std::time::Instant::now();
+            let tree = library.build(positions, indices, quality, robust);
+            let how = if robust { "robust" } else { "fast" };
+            println!("  Embree {quality:?} {how}: built in {:.2} s", start.elapsed().as_secs_f64());
+            let answer = move |query, rays: &[Ray]| tree.answer(query, rays);
+            contenders.push(Contender { name: format!("Embree {how}"), answer: Box::new(answer) });
+        }
+    }
+
+    print!("  {:16}", "Mrays/s");
+    contenders.iter().for_each(|c| print!(" {:>13}", c.name));
+    println!();
+    for RaySet { name, query, rays } in &sets {
+        let mut seconds = vec![Vec::with_capacity(TURNS); contenders.len()];
+        let answers: Vec<_> = contenders.iter().map(|c| (c.answer)(*query, rays)).collect();
+        for _ in 0..TURNS {
+            for (contender, seconds) in contenders.iter().zip(&mut seconds) {
+                let start = ThreadTime::now();
+                black_box((contender.answer)(*query, black_box(rays)));
+                seconds.push(start.elapsed().as_secs_f64());
+            }
+        }
+        let mut rates = Vec::new();
+        print!("  {name:16}");
+        for seconds in &mut seconds {
+            seconds.sort_by(f64::total_cmp);
+            rates.push(rays.len() as f64 / seconds[TURNS / 2] / 1e6);
+            print!(" {:13.2}", rates[rates.len() - 1]);
+        }
+        println!();
+        for (i, answer) in answers.iter().enumerate() {
+            let (hits, expected) = (answer.0 as f64, answers[best_of_ours].0 as f64);
+            if (hits - expected).abs() > 1e-3 * rays.len() as f64 {
+                println!("    {} meets {hits} of {} rays, ours {expected}", contenders[i].name, rays.len());
+            }
+        }
+        let own = rates[best_of_ours];
+        for (i, rate) in rates[..best_of_ours].iter().enumerate() {
+            add(sums, format!("{} / {}", contenders[best_of_ours].name, contenders[i].name), own / rate);
+        }
+        for how in ["Embree fast", "Embree robust"] {
+            let of = |(c, rate): (&Contender, &f64)| (c.name == how).then_some(*rate);
+            let best = contenders.iter().zip(&rates).filter_map(of).fold(0.0, f64::max);
+            if best > 0.0 {
+                println!("    {:.2} × {how}", own / best);
+                add(sums, format!("{} / best {how}", contenders[best_of_ours].name), own / best);
+                let kind = if *query == Query::Occluded { "shadow" } else { "nearest" };
+                add(sums, format!("  of {kind} rays, {how}"), own / best);
+            }
+        }
+    }
+}
+
+fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray]) -> (usize, f64) {
+    match query {
+        Query::Nearest => rays.iter().fold((0, 0.0), |(n, sum), ray| match bvh.nearest(ray) {
+            Some(hit) => (n + 1, sum + f64::from(hit.t)),
+            None => (n, sum),
+        }),
+        Query::Occluded => (rays.iter().filter(|ray| bvh.occluded(ray)).count(), 0.0),
+    }
+}
