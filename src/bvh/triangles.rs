@@ -41,7 +41,8 @@ impl TriangleBvh {
         let kept: Vec<u32> = (0..indices.len() as u32).filter(has_area).collect();
         let boxes: Vec<Aabb> = kept.iter().map(|&t| Aabb::of(corners(&indices[t as usize]))).collect();
         let tree = build(&boxes);
-        let leaves = tree.leaves.iter().map(|ids| {
+        let mut leaves = kernel::with_capacity(tree.leaves.len());
+        leaves.extend(tree.leaves.iter().map(|ids| {
             let mut leaf = TriangleLeaf::EMPTY;
             for (lane, id) in ids.iter().map(|&i| kept[i as usize]).enumerate() {
                 leaf.id[lane] = id;
@@ -52,13 +53,10 @@ impl TriangleBvh {
                 }
             }
             leaf
-        });
-        Self {
-            leaves: leaves.collect(),
-            bounds: boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b)),
-            nodes: tree.nodes,
-            isa: Isa::in_use(),
-        }
+        }));
+        let mut nodes = kernel::with_capacity(tree.nodes.len());
+        nodes.extend_from_slice(&tree.nodes);
+        Self { leaves, bounds: boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b)), nodes, isa: Isa::in_use() }
     }
 
     /// The same tree, traversed by another kernel; `None` where this CPU does not run it.

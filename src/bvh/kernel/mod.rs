@@ -2,7 +2,7 @@
 //! the same f32 operations in the same order, and none fuses a multiplication with an addition.
 //!
 //! `unsafe` is allowed here: it stands where a kernel is entered after its CPU features were detected, where
-//! SIMD registers are loaded from arrays, and in the stack that is not cleared.
+//! SIMD registers are loaded from arrays, in the stack that is not cleared, and where the system is asked for huge pages.
 #![allow(unsafe_code)]
 
 #[cfg(target_arch = "x86_64")]
@@ -10,6 +10,7 @@ mod avx2;
 #[cfg(target_arch = "x86_64")]
 mod avx512;
 mod lanes;
+mod pages;
 mod portable;
 mod ray;
 #[cfg(target_arch = "x86_64")]
@@ -17,6 +18,7 @@ mod register;
 mod stack;
 mod traverse;
 
+pub(super) use pages::with_capacity;
 pub(super) use ray::KernelRay;
 pub(super) use stack::Stack;
 
