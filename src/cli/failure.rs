@@ -6,7 +6,7 @@ use radianza::render;
 use std::io;
 use std::path::PathBuf;
 
-/// Exit codes, for `--help`.
+/// What stands under every `--help`.
 pub(crate) const HELP: &str = "\
 Exit codes:
     0  done
@@ -17,7 +17,11 @@ Exit codes:
     5  unsupported: valid, but asks for what is not honoured
     6  output not writable
    75  interrupted: the image is valid and written, with fewer samples than asked for
-  130  interrupted twice, before the first pass, or during a verification: nothing was written";
+  130  interrupted twice, before the first pass, or during a verification: nothing was written
+
+Environment:
+    RADIANZA_ISA  portable, avx2 or avx512: the kernel that traces rays, in place of the best that this CPU runs; changes
+                  nothing in the image";
 
 /// Why a command did not do what it was asked for.
 #[derive(Debug, thiserror::Error)]

@@ -2,6 +2,7 @@
 
 mod conformance;
 mod hostile;
+mod isa;
 mod pick;
 mod verify;
 
