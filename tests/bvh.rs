@@ -5,7 +5,7 @@ mod common;
 use common::closed_mesh;
 use glam::{Quat, Vec3};
 use proptest::prelude::*;
-use radianza::bvh::{Aabb, BoxBvh, Isa, TriangleBvh};
+use radianza::bvh::{Aabb, BoxBvh, Isa, Quality, TriangleBvh};
 use radianza::math::{Ray, offset_origin};
 use radianza::sampler::{Kind, Sampler};
 use radianza::shape::intersect_triangle;
@@ -37,7 +37,8 @@ proptest! {
     #[test]
     fn kernels_agree_and_find_the_nearest(seed: u64, n in 1usize..400, spread in 0.5f32..30.0) {
         let (positions, indices) = soup(seed, n, spread);
-        let by = |isa| TriangleBvh::build(&positions, &indices).with_isa(isa).unwrap();
+        let by = |isa| TriangleBvh::build(&positions, &indices, Quality::Default).with_isa(isa).unwrap();
+        let trees = Quality::ALL.map(|(quality, _)| TriangleBvh::build(&positions, &indices, quality));
         let (bvh, others) = (by(Isa::Portable), kernels().skip(1).map(by).collect::<Vec<_>>());
         let mut u = Sampler::new(Kind::Independent, seed ^ 1, [0, 0], 0, 1);
         for i in 0..200 {
@@ -47,6 +48,10 @@ proptest! {
             let ray = Ray { o, d, t_max: if i % 3 == 0 { spread } else { f32::INFINITY } };
             let hit = bvh.nearest(&ray);
             prop_assert_eq!(hit.is_some(), bvh.occluded(&ray));
+            // At an edge another tree may find the other triangle, at the same place.
+            for tree in &trees {
+                prop_assert_eq!(hit.map(|h| h.t), tree.nearest(&ray).map(|h| h.t));
+            }
             for other in &others {
                 prop_assert_eq!(hit, other.nearest(&ray));
                 prop_assert_eq!(hit.is_some(), other.occluded(&ray));
@@ -76,7 +81,7 @@ proptest! {
             let (c, e) = (p() * 10.0, p());
             Aabb { min: c - e, max: c + e }
         }).collect();
-        let bvh = BoxBvh::build(&boxes);
+        let bvh = BoxBvh::build(&boxes, Quality::Default);
         for _ in 0..50 {
             let target = boxes[(p().x * n as f32) as usize % n];
             let o = p() * 40.0 - 20.0;
@@ -97,14 +102,14 @@ fn degenerate_triangles_are_never_hit_and_harm_nothing() {
     let base = positions.len() as u32;
     positions.extend([Vec3::ZERO, Vec3::X * 0.3, Vec3::X * 0.6]);
     indices.extend([[base, base + 1, base + 2], [base, base, base], [base, base, base + 1]]);
-    let bvh = TriangleBvh::build(&positions, &indices);
+    let bvh = TriangleBvh::build(&positions, &indices, Quality::Default);
     for i in 0..1000 {
         let d = Quat::from_rotation_y(i as f32 * 0.1) * Vec3::new(0.3, (i as f32).sin(), 0.9).normalize();
         let hit = bvh.nearest(&Ray::new(-d * 0.7, d)).expect("inside a closed mesh");
         assert!(hit.triangle < indices.len() as u32 - 3);
         assert!(hit.t.is_finite() && hit.u.is_finite() && hit.v.is_finite());
     }
-    assert!(TriangleBvh::build(&[], &[]).nearest(&Ray::new(Vec3::ZERO, Vec3::X)).is_none());
+    assert!(TriangleBvh::build(&[], &[], Quality::Default).nearest(&Ray::new(Vec3::ZERO, Vec3::X)).is_none());
 }
 
 #[test]
@@ -118,7 +123,7 @@ fn rays_that_leave_a_plane_through_zero_do_not_meet_it() {
             let turn = |v: Vec3| Vec3::from([0, 1, 2].map(|i| v[(i + axis) % 3]));
             let positions = quad.map(|p| turn(p * scale));
             for isa in kernels() {
-                let bvh = TriangleBvh::build(&positions, &indices).with_isa(isa).unwrap();
+                let bvh = TriangleBvh::build(&positions, &indices, Quality::Default).with_isa(isa).unwrap();
                 for i in 0..20_000 {
                     let mut u = Sampler::new(Kind::Independent, 3, [axis as u32, 0], i, 1);
                     let [x, z] = u.next_2d().map(|u| (0.2 * u - 0.1) * scale * 0.999);

@@ -5,7 +5,7 @@ mod common;
 use common::closed_mesh;
 use glam::{Mat4, Vec3};
 use radianza::bsdf::Bsdf;
-use radianza::bvh::{Isa, TriangleBvh};
+use radianza::bvh::{Isa, Quality, TriangleBvh};
 use radianza::desc::{self, ColorParam, Model, Object, Shape};
 use radianza::math::Ray;
 use radianza::sampler::{Kind, Sampler};
@@ -28,12 +28,14 @@ const PLACES: [(f32, Vec3); 5] = [
 
 #[test]
 fn ten_million_rays_at_edges_and_vertices_of_closed_meshes_find_them() {
-    let kernels: Vec<Isa> = Isa::ALL.into_iter().map(|(isa, _)| isa).filter(|isa| isa.is_available()).collect();
+    let kernels = Isa::ALL.into_iter().filter(|(isa, _)| isa.is_available());
+    let kernels = kernels.map(|(isa, _)| (isa, Quality::Default)).chain([(Isa::detect(), Quality::Best)]);
+    let kernels: Vec<(Isa, Quality)> = kernels.collect();
     let grazed = AtomicU64::new(0);
     for (scale, centre) in PLACES {
         let (positions, indices) = closed_mesh(24, scale, centre);
-        for &isa in &kernels {
-            let bvh = TriangleBvh::build(&positions, &indices).with_isa(isa).expect("it is available");
+        for &(isa, quality) in &kernels {
+            let bvh = TriangleBvh::build(&positions, &indices, quality).with_isa(isa).expect("it is available");
             (0..AIMED / (2 * (PLACES.len() * kernels.len()) as u64)).into_par_iter().for_each(|i| {
                 let mut u = Sampler::new(Kind::Independent, 1, [scale.to_bits(), isa as u32], i, 1);
                 let t = indices[i as usize % indices.len()];

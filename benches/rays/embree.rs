@@ -8,9 +8,9 @@ use radianza::math::Ray;
 use std::ffi::{OsStr, c_char, c_int, c_uint, c_void};
 use std::ptr::{null, null_mut};
 
-/// Quality of a build.
+/// How well a tree is built.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Quality {
+pub(crate) enum BuildQuality {
     Medium = 1,
     High = 2,
 }
@@ -79,7 +79,13 @@ impl Embree {
         }
     }
 
-    pub(crate) fn build(&self, positions: &[Vec3], indices: &[[u32; 3]], quality: Quality, robust: bool) -> Tree<'_> {
+    pub(crate) fn build(
+        &self,
+        positions: &[Vec3],
+        indices: &[[u32; 3]],
+        quality: BuildQuality,
+        robust: bool,
+    ) -> Tree<'_> {
         let vertices: Vec<[f32; 4]> = positions.iter().map(|p| [p.x, p.y, p.z, 0.0]).collect();
         let indices = indices.to_vec();
         let get = |name: &[u8]| -> Handle {

@@ -1,7 +1,7 @@
 //! Anything with a box in a hierarchy: instances, quadrics.
 
 use super::Aabb;
-use super::build::build;
+use super::build::{Quality, build};
 use super::kernel::{self, Isa, KernelRay, Stack};
 use super::node::{LEAF, Node};
 use crate::math::Ray;
@@ -17,8 +17,8 @@ pub struct BoxBvh {
 
 impl BoxBvh {
     /// Builds over boxes, none of them empty.
-    pub fn build(boxes: &[Aabb]) -> Self {
-        let tree = build(boxes);
+    pub fn build(boxes: &[Aabb], quality: Quality) -> Self {
+        let tree = build(boxes, quality);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
         Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::in_use() }
     }

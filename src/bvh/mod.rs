@@ -6,11 +6,13 @@
 
 mod boxes;
 mod build;
+mod fragments;
 mod kernel;
 mod node;
 mod triangles;
 
 pub use boxes::BoxBvh;
+pub use build::Quality;
 pub use kernel::Isa;
 pub use triangles::{TriangleBvh, TriangleHit};
 

@@ -1,11 +1,13 @@
 //! Triangles in a hierarchy.
 
 use super::Aabb;
-use super::build::build;
+use super::build::{Quality, build};
+use super::fragments::split;
 use super::kernel::{self, Isa, KernelRay};
 use super::node::{Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
+use arrayvec::ArrayVec;
 use glam::Vec3;
 
 /// Where a ray met a triangle.
@@ -35,16 +37,32 @@ pub struct TriangleBvh {
 impl TriangleBvh {
     /// Builds over `indices` into `positions` (in range, finite). Triangles without area have no normal and are never
     /// hit.
-    pub fn build(positions: &[Vec3], indices: &[[u32; 3]]) -> Self {
+    pub fn build(positions: &[Vec3], indices: &[[u32; 3]], quality: Quality) -> Self {
         let corners = |t: &[u32; 3]| t.map(|i| positions[i as usize]);
         let has_area = |t: &u32| triangle_normal(corners(&indices[*t as usize])).is_some();
         let kept: Vec<u32> = (0..indices.len() as u32).filter(has_area).collect();
         let boxes: Vec<Aabb> = kept.iter().map(|&t| Aabb::of(corners(&indices[t as usize]))).collect();
-        let tree = build(&boxes);
+        let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
+        let (boxes, owners) = if quality == Quality::Best {
+            let triangles: Vec<[Vec3; 3]> = kept.iter().map(|&t| corners(&indices[t as usize])).collect();
+            let (parts, owners) = split(&triangles, &boxes);
+            (parts, owners.into_iter().map(|i| kept[i as usize]).collect())
+        } else {
+            (boxes, kept)
+        };
+        let tree = build(&boxes, quality);
+        drop(boxes);
         let mut leaves = kernel::with_capacity(tree.leaves.len());
         leaves.extend(tree.leaves.iter().map(|ids| {
+            // Parts of one triangle may have come together again.
+            let mut own: ArrayVec<u32, WIDTH> = ArrayVec::new();
+            for id in ids.iter().map(|&i| owners[i as usize]) {
+                if !own.contains(&id) {
+                    own.push(id);
+                }
+            }
             let mut leaf = TriangleLeaf::EMPTY;
-            for (lane, id) in ids.iter().map(|&i| kept[i as usize]).enumerate() {
+            for (lane, id) in own.into_iter().enumerate() {
                 leaf.id[lane] = id;
                 for (i, p) in corners(&indices[id as usize]).into_iter().enumerate() {
                     for axis in 0..3 {
@@ -56,7 +74,7 @@ impl TriangleBvh {
         }));
         let mut nodes = kernel::with_capacity(tree.nodes.len());
         nodes.extend_from_slice(&tree.nodes);
-        Self { leaves, bounds: boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b)), nodes, isa: Isa::in_use() }
+        Self { leaves, bounds, nodes, isa: Isa::in_use() }
     }
 
     /// The same tree, traversed by another kernel; `None` where this CPU does not run it.

@@ -1,5 +1,6 @@
 //! Values on the command line.
 
+use radianza::bvh::Quality;
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -73,6 +74,14 @@ impl FromStr for Replay {
 fn numbers<T: FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
     let numbers: Option<Vec<T>> = text.split(',').map(|s| s.trim().parse().ok()).collect();
     numbers?.try_into().ok()
+}
+
+/// A quality of hierarchies by its name.
+pub(crate) fn quality(text: &str) -> Result<Quality, String> {
+    let found = Quality::ALL.into_iter().find(|(_, name)| *name == text);
+    found
+        .map(|(quality, _)| quality)
+        .ok_or_else(|| format!("`{text}` is no quality; expected {}", Quality::ALL.map(|(_, name)| name).join(", ")))
 }
 
 /// An exposure or a threshold: any finite number.

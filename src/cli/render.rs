@@ -5,6 +5,7 @@ use super::pick::Pick;
 use super::progress::{Report, speed};
 use super::settings::{self, Choices};
 use super::{Failure, environment, interrupt, meter};
+use radianza::bvh::Quality;
 use radianza::desc::{self, Filter, Integrator, SamplerKind, Strategy, Tonemap};
 use radianza::film::exr::write_exr;
 use radianza::film::file::check_writable;
@@ -80,6 +81,10 @@ pub(crate) struct Arguments {
     /// Tone curve of the PNG [agx]
     #[arg(long)]
     pub(super) tonemap: Option<Tonemap>,
+    /// How long hierarchies may take to build, for how fast they are traced: preview, default or best. The image is the same
+    /// but where a ray meets two surfaces at once [default]
+    #[arg(long, value_name = "QUALITY", value_parser = args::quality, default_value = "default", hide_default_value = true)]
+    bvh: Quality,
     /// Threads; 0: all cores. Changes nothing in the image
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) threads: usize,
@@ -112,7 +117,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
 
     // One path in words, if that is the question.
     if let Some(Replay { pixel, index }) = arguments.replay {
-        return replay(&Scene::compile(&scene)?, &settings, pixel, index);
+        return replay(&Scene::compile_with(&scene, arguments.bvh)?, &settings, pixel, index);
     }
 
     // Render; know before that the result can be kept.
@@ -121,7 +126,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     for path in [&exr, &png] {
         check_writable(path).map_err(|e| Failure::Output(path.clone(), e))?;
     }
-    let compiled = Scene::compile(&scene)?;
+    let compiled = Scene::compile_with(&scene, arguments.bvh)?;
     let metadata = std::mem::take(&mut scene.metadata);
     drop(scene);
     let report = Report::new(arguments.quiet, settings.time);

@@ -2,7 +2,7 @@
 
 use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
 use super::{Info, Media, Scene};
-use crate::bvh::TriangleBvh;
+use crate::bvh::{Quality, TriangleBvh};
 use crate::desc::{self, Error, Mesh, Object, Shape};
 use crate::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
 use crate::material::Material;
@@ -21,13 +21,21 @@ impl Scene {
     /// # Errors
     /// Where an object's transform is singular or not affine.
     pub fn compile(desc: &desc::Scene) -> Result<Self, Error> {
+        Self::compile_with(desc, Quality::default())
+    }
+
+    /// The same with hierarchies of another quality.
+    ///
+    /// # Errors
+    /// As [`compile`](Self::compile).
+    pub fn compile_with(desc: &desc::Scene, quality: Quality) -> Result<Self, Error> {
         let textures = Textures::new(desc);
-        let mut builder = Builder::new(desc);
+        let mut builder = Builder::new(desc, quality);
         for object in &desc.objects {
             builder.place(object)?;
         }
         let Builder { materials, parts, prototypes, instances, quadrics, emitters, mut lights, .. } = builder;
-        let geometry = Geometry::new(parts, prototypes, instances, quadrics);
+        let geometry = Geometry::new(parts, prototypes, instances, quadrics, quality);
 
         // Lights without a surface.
         lights.extend(desc.lights.iter().map(Light::from_desc));
@@ -76,6 +84,7 @@ impl Scene {
 /// Collects what objects turn into.
 struct Builder<'a> {
     desc: &'a desc::Scene,
+    quality: Quality,
     /// Materials as written, then those of objects with an emission of their own.
     materials: Vec<desc::Material>,
     parts: Vec<Part>,
@@ -91,7 +100,7 @@ struct Builder<'a> {
 }
 
 impl<'a> Builder<'a> {
-    fn new(desc: &'a desc::Scene) -> Self {
+    fn new(desc: &'a desc::Scene, quality: Quality) -> Self {
         let mut uses = vec![0; desc.shapes.len()];
         desc.objects.iter().for_each(|o| uses[o.shape] += 1);
         let colored = |shape: &Shape| matches!(shape, Shape::Mesh(mesh) if !mesh.colors.is_empty());
@@ -101,6 +110,7 @@ impl<'a> Builder<'a> {
         }
         Self {
             desc,
+            quality,
             materials,
             parts: Vec::new(),
             prototypes: Vec::new(),
@@ -140,7 +150,7 @@ impl<'a> Builder<'a> {
                     self.parts.push(Part { mesh: to_world(mesh, &transform), owner, flip });
                 } else {
                     let prototype = *self.prototype_of[object.shape].get_or_insert_with(|| {
-                        let bvh = TriangleBvh::build(&mesh.positions, &mesh.indices);
+                        let bvh = TriangleBvh::build(&mesh.positions, &mesh.indices, self.quality);
                         self.prototypes.push(Prototype { mesh: mesh.clone(), bvh });
                         (self.prototypes.len() - 1) as u32
                     });

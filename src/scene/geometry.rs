@@ -1,6 +1,6 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
-use crate::bvh::{Aabb, BoxBvh, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, BoxBvh, Quality, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{
@@ -93,6 +93,7 @@ impl Geometry {
         prototypes: Vec<Prototype>,
         instances: Vec<Instance>,
         quadrics: Vec<(PlacedQuadric, Owner)>,
+        quality: Quality,
     ) -> Self {
         // All parts in one tree.
         let (mut positions, mut indices, mut origin) = (Vec::new(), Vec::new(), Vec::new());
@@ -105,7 +106,7 @@ impl Geometry {
                 Origin { part: p as u32, triangle: triangle as u32, ng: if part.flip { -front } else { front } }
             }));
         }
-        let world = TriangleBvh::build(&positions, &indices);
+        let world = TriangleBvh::build(&positions, &indices, quality);
 
         // Instances and quadrics in another.
         let boxes = instances.iter().map(|i| i.bounds(&prototypes[i.prototype as usize]));
@@ -113,7 +114,7 @@ impl Geometry {
             let (min, max) = q.bounds();
             Aabb { min, max }
         }));
-        let objects = BoxBvh::build(&boxes.collect::<Vec<_>>());
+        let objects = BoxBvh::build(&boxes.collect::<Vec<_>>(), quality);
         Self { parts, origin, world, prototypes, instances, quadrics, objects }
     }
 
