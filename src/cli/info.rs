@@ -58,10 +58,14 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         let now = options.variant.map_or("none".into(), |name| format!("`{name}`"));
         println!("variant    {now}, of {}", list(&scene.variants));
     }
-    println!(
+    print!(
         "memory     {}",
         memory(&[("meshes", info.mesh_bytes), ("trees", info.bvh_bytes), ("images", info.texture_bytes)])
     );
+    match (info.mesh_bytes + info.bvh_bytes).checked_div(info.stored_triangles) {
+        Some(bytes) => println!(", {bytes} bytes a triangle"),
+        None => println!(),
+    }
     for (index, camera) in scene.cameras.iter().enumerate() {
         let name = if camera.name.is_empty() { String::new() } else { format!("`{}` ", camera.name) };
         println!("camera {index}   {name}{}", view(camera));

@@ -106,7 +106,7 @@ fn rendered(scene: &Scene, sampler: SamplerKind, trial: &Trial, found: &mut Find
     for (replicates, size) in [(2, 8), (8, 2)] {
         let crop = [8, 16, 24, 32];
         let one = Settings { crop, spp: replicates * size, replicate: size, ..small(way, trial.seed) };
-        let groups = trial.work(32, 1_400);
+        let groups = trial.work(24, 1_400);
         let weights: Vec<f64> = {
             let pilot = image(scene, &one, hash(&[trial.seed, 1]))?;
             pilot.iter().map(|(mean, _)| 1.0 / (mean + 0.05).powi(2)).collect()
