@@ -33,9 +33,8 @@ fn elements(xml: &str) -> Vec<(String, String)> {
     loop {
         match reader.read_event().unwrap_or_else(|e| panic!("{e}\n{xml}")) {
             Event::Start(e) | Event::Empty(e) => {
-                let kind = e.try_get_attribute("type").unwrap().map(|a| a.value.to_vec()).unwrap_or_default();
-                let text = |bytes: &[u8]| String::from_utf8(bytes.to_vec()).unwrap();
-                found.push((text(e.name().as_ref()), text(&kind)));
+                let kind = e.try_get_attribute("type").unwrap().map(|a| a.value.to_string()).unwrap_or_default();
+                found.push((e.name().as_ref().to_string(), kind));
             }
             Event::Eof => return found,
             _ => {}
@@ -127,6 +126,72 @@ fn shapes_and_emitters_are_all_there() {
     assert!(folder.path().join("interior-files/image-0.png").exists());
 }
 
+/// Directives of a pbrt file that begin with this.
+fn lines(text: &str, start: &str) -> usize {
+    text.lines().filter(|line| line.starts_with(start)).count()
+}
+
+#[test]
+fn pbrt_gets_the_same_scene() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["--filter", "box", "--size", "30x20", "--max-depth", "4"];
+    let (text, err) = export(folder.path(), "scenes/interior.toml", "a.pbrt", &options);
+    assert!(text.starts_with("# interior, written by radianza"), "{text}");
+    for part in [
+        // The shorter side is the height.
+        "Camera \"perspective\" \"float fov\" [ 48 ]",
+        "\"integer xresolution\" [ 30 ] \"integer yresolution\" [ 20 ]",
+        "PixelFilter \"box\" \"float xradius\" [ 0.5 ]",
+        "Integrator \"volpath\" \"integer maxdepth\" [ 4 ]",
+        "\"string filename\" [ \"a.exr\" ]",
+        // Two repeats of the planks, of a v that counts upwards: 1 − (2 − 2 v) is looked up from the top.
+        "\"float vscale\" [ 2 ] \"float vdelta\" [ -1 ]",
+        "\"string normalmap\" [ \"a-files/image-2.exr\" ]",
+        "\"bool remaproughness\" [ false ] \"float roughness\" [ 0.25 ]",
+    ] {
+        assert!(text.contains(part), "{part} in\n{text}");
+    }
+    assert_eq!([lines(&text, "ObjectBegin"), lines(&text, "ObjectInstance"), lines(&text, "Area")], [6, 24, 2]);
+    assert_eq!(lines(&text, "AttributeBegin"), lines(&text, "AttributeEnd"));
+    assert_eq!(lines(&text, "ReverseOrientation"), 1);
+    assert!(err.contains("note: pbrt: ") && text.contains("# note: "), "{err}");
+
+    // v counts upwards there.
+    let ply = std::fs::read(folder.path().join("a-files/mesh-0.ply")).unwrap();
+    let start = ply.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
+    let number = |i: usize| f32::from_le_bytes(ply[start + 4 * i..][..4].try_into().unwrap());
+    assert_eq!([number(3), number(4)], [0.0, 1.0]);
+
+    let (text, _) = export(folder.path(), "scenes/verify/l2-two-sided.toml", "b.pbrt", &[]);
+    assert!(text.contains("\"bool twosided\" [ true ]"), "{text}");
+    let (text, _) = export(folder.path(), "scenes/outdoor.toml", "c.pbrt", &[]);
+    assert!(text.contains("LightSource \"infinite\" \"string filename\" [ \"c-files/image-"), "{text}");
+    let (text, _) = export(folder.path(), "scenes/verify/v1-slab.toml", "d.pbrt", &[]);
+    assert!(text.contains("\"rgb sigma_a\"") && lines(&text, "MediumInterface") == 1, "{text}");
+}
+
+#[test]
+fn every_scene_is_written_for_both() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut scenes = Vec::new();
+    for below in ["scenes", "scenes/materials", "scenes/verify"] {
+        let entries = std::fs::read_dir(repo(below)).unwrap();
+        scenes.extend(entries.map(|e| e.unwrap().path()).filter(|p| p.extension().is_some_and(|e| e != "rs")));
+    }
+    scenes.retain(|path| path.is_file());
+    scenes.sort();
+    assert!(scenes.len() > 50);
+    for scene in scenes {
+        let scene = scene.to_str().unwrap();
+        let (code, err) = radianza(folder.path(), &["export", scene, "-o", "a.xml", "-q"]);
+        assert!(code == 0 || code == 5 && err.contains("equirectangular"), "{scene}\n{err}");
+        if code == 0 {
+            elements(&std::fs::read_to_string(folder.path().join("a.xml")).unwrap());
+        }
+        assert_eq!(radianza(folder.path(), &["export", scene, "-o", "a.pbrt", "-q"]), (0, String::new()), "{scene}");
+    }
+}
+
 #[test]
 fn what_cannot_be_said_is_noted_in_the_file_and_on_stderr() {
     let folder = tempfile::tempdir().unwrap();
@@ -145,18 +210,15 @@ fn what_is_wrong_has_its_exit_code() {
     let cornell = repo("scenes/cornell-box.toml");
     let cornell = cornell.to_str().unwrap();
     std::fs::write(folder.path().join("file"), "").unwrap();
-    std::fs::write(
-        folder.path().join("panorama.toml"),
-        "[camera]\nprojection = \"equirectangular\"\n[[shape]]\ntype = \"sphere\"\nradius = 1\n",
-    )
-    .unwrap();
+    let panorama = repo("scenes/verify/f2-sphere-rho-05.toml");
+    let panorama = panorama.to_str().unwrap();
     for (arguments, expected, word) in [
         (&["export", cornell, "-o", "a.blend"][..], 2, ".xml"),
         (&["export", cornell, "-o", "a"], 2, ".xml"),
         (&["export", cornell], 2, "--output"),
         (&["export", cornell, "-o", "a.xml", "--camera", "none"], 2, "camera"),
         (&["export", "none.toml", "-o", "a.xml"], 4, "none.toml"),
-        (&["export", "panorama.toml", "-o", "a.xml"], 5, "equirectangular"),
+        (&["export", panorama, "-o", "a.xml"], 5, "equirectangular"),
         (&["export", cornell, "-o", "file/a.xml"], 6, "cannot be written"),
     ] {
         let (code, err) = radianza(folder.path(), arguments);
@@ -188,6 +250,9 @@ fn mitsuba_sees_the_same() {
         ("scenes/cornell-box.toml", 0.0),
         ("scenes/veach-mis.toml", 1e-3),
         ("scenes/materials/emissive-strength.glb", 5e-3),
+        ("scenes/verify/l2-instances.toml", 0.0),
+        ("scenes/verify/l2-mixture.toml", 1e-3),
+        ("scenes/verify/v1-slab.toml", 0.0),
     ] {
         const PARTS: usize = 8;
         let common = ["--size", "64x64", "--filter", "box"];
@@ -221,7 +286,7 @@ fn mitsuba_sees_the_same() {
             let se = (own * own + spread + (model * mean).powi(2)).sqrt();
             let z = (theirs - mean) / se;
             println!("{scene} {c}: {mean:.5} here, {theirs:.5} there, z {z:+.2}");
-            // Seven degrees of freedom: |t| beyond 6 has a probability below 1e-3; nine comparisons.
+            // Seven degrees of freedom: |t| beyond 6 has a probability below 1e-3; eighteen comparisons.
             assert!(z.abs() < 6.0, "{scene}, channel {c}: {mean} here, {theirs} there, z {z}");
         }
     }

@@ -1,7 +1,7 @@
 //! Indices of refraction with a given reflectance, for targets that know Fresnel's formulas and not Schlick's; and what
 //! microfacets that scatter once lack.
 
-use crate::bsdf::{self, Coat, EnergyTable, Interface, Micro, RoughReflection};
+use crate::bsdf::{self, Coat, EnergyTable, Interface, Micro, RoughReflection, Slice};
 use crate::spectrum::Spectrum;
 
 /// Index of a dielectric that reflects `f0` at normal incidence: n = (1 + √F₀)/(1 − √F₀).
@@ -29,6 +29,13 @@ pub(super) fn metal(f0: f32) -> [f32; 2] {
         if mean(at(middle)) < wanted { low = middle } else { high = middle }
     }
     at(0.5 * (low + high)).map(|x| x as f32)
+}
+
+/// All over what is scattered once, of the interface of a dielectric: the mean of both its sides.
+pub(super) fn glass_again(alpha: f32, eta: f32) -> f32 {
+    let ggx = |eta| EnergyTable::isotropic(Interface::Dielectric { eta });
+    let loss = [eta, 1.0 / eta].map(|eta| Slice::isotropic(ggx(eta), alpha).mean.loss);
+    1.0 / (1.0 - 0.5 * (loss[0] + loss[1])).max(0.1)
 }
 
 /// Reflectance of η − iκ at normal incidence.

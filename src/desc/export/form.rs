@@ -86,6 +86,41 @@ impl<'a> Beside<'a> {
         self.mesh(Variant { shape, turned, negated, uv_set, upwards, inset })
     }
 
+    /// Whether the normal map of a material has its y turned: the targets' bitangent is n × ∂p/∂u, whichever way v runs.
+    pub(super) fn turns_normals(&mut self, placed: &[Placed], material: usize) -> bool {
+        if self.scene.materials[material].normal_map.is_none() {
+            return false;
+        }
+        let worn = placed.iter().filter(|p| p.object.material == material);
+        let turned: Vec<bool> = worn.filter_map(|p| self.is_left_handed(p)).collect();
+        if turned.contains(&true) && turned.contains(&false) {
+            let name = &self.scene.materials[material].name;
+            self.note(format!(
+                "material `{name}`: where its texture coordinates are mirrored, its bumps are dents one way"
+            ));
+        }
+        2 * turned.iter().filter(|turned| **turned).count() > turned.len()
+    }
+
+    /// Whether n × tangent is the negative bitangent; `None` where there is no tangent.
+    fn is_left_handed(&self, placed: &Placed) -> Option<bool> {
+        let (Shape::Mesh(mesh), Form::Mesh { mirrors, .. }) = (&self.scene.shapes[placed.object.shape], placed.form)
+        else {
+            return Some(false);
+        };
+        let flip = mirrors != placed.object.reversed;
+        if let Some(tangent) = mesh.tangents.first() {
+            return Some((tangent.w < 0.0) != flip);
+        }
+        let uv = &mesh.uv[placed.uv_set];
+        let corner = |i: u32| uv.get(i as usize).copied();
+        let areas = mesh.indices.iter().filter_map(|[a, b, c]| {
+            let (a, b, c) = (corner(*a)?, corner(*b)?, corner(*c)?);
+            Some((b - a).perp_dot(c - a))
+        });
+        areas.into_iter().find(|area| *area != 0.0).map(|area| (area > 0.0) != flip)
+    }
+
     /// The shape has no normals of its own.
     pub(super) fn is_flat(&self, placed: &Placed) -> bool {
         matches!(&self.scene.shapes[placed.object.shape], Shape::Mesh(mesh) if mesh.normals.is_empty())

@@ -21,8 +21,8 @@ pub(super) enum Picture {
     },
     /// One channel.
     Channel { image: usize, srgb: bool, channel: usize, factor: f32, map: Map },
-    /// A normal map with its strength.
-    Normals { image: usize, scale: f32 },
+    /// A normal map with its strengths along x and y.
+    Normals { image: usize, scale: [f32; 2] },
     /// An environment on a square of equal areas.
     Octahedral { image: usize, factor: [f32; 3], to_world: Mat3 },
 }
@@ -96,7 +96,7 @@ impl Picture {
             _ => None,
         };
         match *self {
-            Self::Color { factor: [1.0, 1.0, 1.0], .. } | Self::Normals { scale: 1.0, .. } => {
+            Self::Color { factor: [1.0, 1.0, 1.0], .. } | Self::Normals { scale: [1.0, 1.0], .. } => {
                 Some((codes?.iter().flat_map(|p| [p[0], p[1], p[2]]).collect(), ExtendedColorType::Rgb8))
             }
             Self::Channel { srgb, channel, factor: 1.0, map: Map::Same, .. } if !srgb || channel == 3 => {
@@ -131,7 +131,7 @@ impl Picture {
             Self::Normals { scale, .. } => {
                 let p = texel(false);
                 let n = glam::Vec3::new(p[0], p[1], p[2]) * 2.0 - 1.0;
-                let n = (n * glam::Vec3::new(scale, scale, 1.0)).normalize_or(glam::Vec3::Z);
+                let n = (n * glam::Vec3::new(scale[0], scale[1], 1.0)).normalize_or(glam::Vec3::Z);
                 (0.5 * n + 0.5).to_array()
             }
             Self::Octahedral { .. } => [0.0; 3],

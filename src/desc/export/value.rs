@@ -3,7 +3,7 @@
 use super::ExportError;
 use super::beside::Beside;
 use super::picture::{Map, Picture};
-use crate::desc::{ColorParam, ScalarParam, Texture, TextureRef, Wrap};
+use crate::desc::{ColorParam, NormalMap, ScalarParam, Texture, Wrap};
 use glam::Affine2;
 
 /// A colour.
@@ -126,14 +126,15 @@ impl Beside<'_> {
         Ok(Scalar::Texture(Source { transform: texture.transform, pattern }))
     }
 
-    /// The image of a normal map; `None` where it is no image.
-    pub(super) fn normals(&mut self, texture: &TextureRef, scale: f32) -> Result<Option<Source<f32>>, ExportError> {
-        let Texture::Image { image, wrap, nearest, .. } = self.scene.textures[texture.texture] else {
+    /// The image of a normal map, its y turned or not; `None` where it is no image.
+    pub(super) fn normals(&mut self, map: &NormalMap, turned: bool) -> Result<Option<Source<f32>>, ExportError> {
+        let Texture::Image { image, wrap, nearest, .. } = self.scene.textures[map.texture.texture] else {
             self.note("a checker as a normal map is left out");
             return Ok(None);
         };
+        let scale = [map.scale, if turned { -map.scale } else { map.scale }];
         let (file, _) = self.picture(Picture::Normals { image, scale })?;
         let pattern = Pattern::Image { file, linear: true, wrap, nearest };
-        Ok(Some(Source { transform: texture.transform, pattern }))
+        Ok(Some(Source { transform: map.texture.transform, pattern }))
     }
 }

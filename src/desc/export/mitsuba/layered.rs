@@ -23,6 +23,9 @@ pub(super) fn metallic_roughness(w: &mut Writer, m: &MetallicRoughness) -> Resul
     let metallic = w.beside.scalar(&m.metallic, Map::Same)?;
     let f0 = reflectance(w, m);
     let layers = &m.layers;
+    let mixed = |s: &Scalar| s.constant().is_none_or(|x| x > 0.0 && x < 1.0);
+    let sent = m.transmission.as_ref().map(|t| w.beside.scalar(&t.factor, Map::Same)).transpose()?;
+    w.blended |= mixed(&metallic) || sent.is_some_and(|t| mixed(&t));
     let opaque = if layers.sheen.is_some() || layers.clearcoat.is_some() || layers.anisotropy.is_some() {
         two_sided(principled(w, m, &base, &metallic, f0)?)
     } else {
@@ -62,6 +65,19 @@ fn through(
     f0: f32,
     base: &Color,
 ) -> Result<Element, ExportError> {
+    let sent = m.transmission.as_ref().filter(|t| t.factor.factor > 0.0);
+    let clear = match sent {
+        Some(Transmission { thin: true, .. }) => Some(sheet(w, m, f0, base)?),
+        Some(_) => Some(w.dielectric(m.ior, &Roughness::Perceptual(m.roughness), &m.base_color)?),
+        None => None,
+    };
+    let share = match sent {
+        Some(t) => w.beside.scalar(&t.factor, Map::Same)?,
+        None => Scalar::Constant(0.0),
+    };
+    if let (Some(clear), Some(1.0)) = (&clear, share.constant()) {
+        return Ok(clear.clone());
+    }
     let mut opaque = plastic(w)?;
     if let Some(t) = m.diffuse_transmission.as_ref().filter(|t| t.factor.factor > 0.0) {
         w.note("what it transmits diffusely is not dimmed by its surface's reflection");
@@ -69,13 +85,10 @@ fn through(
         let sheet = Element::bsdf("principledthin").color("base_color", &color).float("roughness", 1.0);
         opaque = blend(opaque, sheet.float("diff_trans", 2.0), &share);
     }
-    let Some(t) = m.transmission.as_ref().filter(|t| t.factor.factor > 0.0) else { return Ok(opaque) };
-    let share = w.beside.scalar(&t.factor, Map::Same)?;
-    let clear = match t {
-        Transmission { thin: true, .. } => sheet(w, m, f0, base)?,
-        _ => w.dielectric(m.ior, &Roughness::Perceptual(m.roughness), &m.base_color)?,
-    };
-    Ok(blend(opaque, clear, &share))
+    Ok(match clear {
+        Some(clear) => blend(opaque, clear, &share),
+        None => opaque,
+    })
 }
 
 /// A thin wall that does not bend light.

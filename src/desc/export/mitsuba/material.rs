@@ -6,6 +6,7 @@
 use super::super::ExportError;
 use super::super::beside::Beside;
 use super::super::fit;
+use super::super::form::Placed;
 use super::super::micro::Micro;
 use super::super::picture::Map;
 use super::super::value::{Color, Scalar};
@@ -14,15 +15,26 @@ use super::xml::Element;
 use crate::bsdf::MIN_ALPHA;
 use crate::desc::{Alpha, ColorParam, Dispersion, Fresnel, Material, Model, Roughness, Wrap};
 
+/// Least share of σ_a of a lane.
+const CLEAR: f32 = 1e-6;
+
+/// α of what is smooth, in a blend.
+const NARROW: f32 = 1e-3;
+
+/// A note on rough metal and glass.
+const AGAIN: &str = "what its microfacets scatter more than once is a factor on what they scatter once";
+
 /// Least α of `principled`.
 const PRINCIPLED_ALPHA: f32 = 1e-3;
 
 /// The whole material, named for its index.
-pub(super) fn element(index: usize, material: &Material, beside: &mut Beside) -> Result<Element, ExportError> {
-    let mut writer = Writer { beside, name: &material.name };
+pub(super) fn element(index: usize, placed: &[Placed], beside: &mut Beside) -> Result<Element, ExportError> {
+    let material = &beside.scene.materials[index];
+    let turned = beside.turns_normals(placed, index);
+    let mut writer = Writer { beside, name: &material.name, blended: false };
     let mut bsdf = writer.model(&material.model)?;
     if let Some(map) = &material.normal_map {
-        if let Some(source) = writer.beside.normals(&map.texture, map.scale)? {
+        if let Some(source) = writer.beside.normals(map, turned)? {
             bsdf = Element::bsdf("normalmap").normals("normalmap", &source).child(bsdf);
         }
         writer.note("where a normal map sends light into the surface, Mitsuba drops it");
@@ -65,7 +77,11 @@ pub(super) fn media(beside: &Beside) -> Vec<Element> {
     media
         .map(|(id, absorption)| {
             let medium = Element::plugin("medium", "homogeneous").with("id", id);
-            medium.rgb("sigma_t", absorption).rgb("albedo", [0.0; 3])
+            // Colours end at 1 there; the rest is a factor.
+            let most = absorption.into_iter().fold(0.0, f32::max);
+            // What is drawn by a lane that absorbs nothing is no number.
+            let share = absorption.map(|x| (x / most).max(CLEAR));
+            medium.rgb("sigma_t", share).float("scale", most).rgb("albedo", [0.0; 3])
         })
         .collect()
 }
@@ -74,6 +90,8 @@ pub(super) fn media(beside: &Beside) -> Vec<Element> {
 pub(super) struct Writer<'a, 'b> {
     pub(super) beside: &'a mut Beside<'b>,
     pub(super) name: &'a str,
+    /// It is a part of a blend.
+    pub(super) blended: bool,
 }
 
 impl Writer<'_, '_> {
@@ -97,7 +115,11 @@ impl Writer<'_, '_> {
                 let metal = metal.float("alpha", alpha.max(MIN_ALPHA));
                 two_sided(metal.color("specular_reflectance", &self.share(reflectance)?))
             }
-            Model::Mirror { reflectance } => two_sided(mirror(&self.share(reflectance)?)),
+            Model::Mirror { reflectance } => {
+                let micro = self.micro(&Roughness::Alpha([0.0; 2]))?;
+                let mirror = microfacets(&micro, "ggx").string("material", "none");
+                two_sided(mirror.color("specular_reflectance", &self.share(reflectance)?))
+            }
             Model::Dielectric { ior, roughness, tint } => self.dielectric(*ior, roughness, tint)?,
             Model::Conductor { fresnel, roughness } => self.conductor(fresnel, roughness, "ggx")?,
             Model::CookTorrance { fresnel, roughness } => self.conductor(fresnel, roughness, "beckmann")?,
@@ -120,7 +142,14 @@ impl Writer<'_, '_> {
     }
 
     pub(super) fn micro(&mut self, roughness: &Roughness) -> Result<Micro, ExportError> {
-        self.beside.micro(roughness, self.name)
+        let micro = self.beside.micro(roughness, self.name)?;
+        if self.blended && micro == Micro::Smooth {
+            self.note(
+                "what is perfectly smooth in a blend is of α = 0.001: Mitsuba 3.9 weighs its directions as densities",
+            );
+            return Ok(Micro::Constant([NARROW; 2]));
+        }
+        Ok(micro)
     }
 
     /// One α that stands for all.
@@ -146,16 +175,23 @@ impl Writer<'_, '_> {
         tint: &ColorParam,
     ) -> Result<Element, ExportError> {
         let micro = self.micro(roughness)?;
-        self.loses(&micro);
-        let tint = self.share(tint)?;
         let glass = |kind: &str| Element::bsdf(kind).float("int_ior", ior).float("ext_ior", 1.0);
-        let glass = match &micro {
-            // Rough interfaces between equals are none.
-            _ if (ior - 1.0).abs() < 2e-3 => glass("dielectric"),
-            Micro::Smooth => glass("dielectric"),
-            rough => alphas(glass("roughdielectric").string("distribution", "ggx"), rough),
-        };
-        Ok(if tint == Color::Constant([1.0; 3]) { glass } else { glass.color("specular_transmittance", &tint) })
+        // Rough interfaces between equals are none.
+        if micro == Micro::Smooth || (ior - 1.0).abs() < 2e-3 {
+            let tint = self.share(tint)?;
+            return Ok(glass("dielectric").color("specular_transmittance", &tint));
+        }
+        let rough = alphas(glass("roughdielectric").string("distribution", "ggx"), &micro);
+        if !micro.loses() {
+            let tint = self.share(tint)?;
+            return Ok(rough.color("specular_transmittance", &tint));
+        }
+        self.note(AGAIN);
+        let again = fit::glass_again(self.alpha_of(&micro), ior);
+        let tint = ColorParam { factor: tint.factor.map(|x| x.clamp(0.0, 1.0) * again), ..*tint };
+        let tint = self.beside.radiance(&tint)?;
+        let rough = rough.unbounded("specular_reflectance", &Color::Constant([again; 3]));
+        Ok(rough.unbounded("specular_transmittance", &tint))
     }
 
     pub(super) fn conductor(
@@ -199,7 +235,7 @@ impl Writer<'_, '_> {
             self.loses(micro);
             return two_sided(metal);
         }
-        self.note("what its microfacets scatter more than once is a factor on what they scatter once");
+        self.note(AGAIN);
         let f0 = [0, 1, 2].map(|i| fit::normal_reflectance(eta[i], k[i]));
         let factor = fit::scattered_again(self.alpha_of(micro), f0);
         two_sided(metal.unbounded("specular_reflectance", &Color::Constant(factor)))
@@ -208,6 +244,7 @@ impl Writer<'_, '_> {
     /// Σ wᵢ fᵢ by blending two at a time; what the weights lack is black.
     fn mixture(&mut self, parts: &[(f32, Model)]) -> Result<Element, ExportError> {
         let (mut sum, mut mixed) = (0.0, None);
+        self.blended = true;
         for (weight, part) in parts.iter().filter(|(weight, _)| *weight > 0.0) {
             let part = self.model(part)?;
             sum += weight;
@@ -248,10 +285,6 @@ pub(super) fn two_sided(bsdf: Element) -> Element {
 
 pub(super) fn diffuse(reflectance: &Color) -> Element {
     Element::bsdf("diffuse").color("reflectance", reflectance)
-}
-
-pub(super) fn mirror(reflectance: &Color) -> Element {
-    Element::bsdf("conductor").string("material", "none").color("specular_reflectance", reflectance)
 }
 
 /// GGX with Schlick's reflectance.

@@ -25,12 +25,15 @@ pub(super) fn text(view: &View, beside: &mut Beside) -> Result<String, ExportErr
 
     // Materials come first; of each only that what is inside may absorb.
     let mut materials = Vec::new();
-    for (index, material) in beside.scene.materials.iter().enumerate() {
+    for index in 0..beside.scene.materials.len() {
         if placed.iter().any(|p| p.object.material == index) {
-            materials.push(material::element(index, material, beside)?);
+            materials.push(material::element(index, &placed, beside)?);
         }
     }
     let media = material::media(beside);
+    if !media.is_empty() {
+        beside.note("cameras and lights inside of what absorbs start in vacuum, and nested interiors are not known");
+    }
     scene = scene.child(integrator(view, !media.is_empty(), beside));
     scene = scene.child(camera::element(view, beside)?);
     for element in materials.into_iter().chain(media) {

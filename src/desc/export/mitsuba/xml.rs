@@ -80,7 +80,9 @@ impl Element {
                     Self::plugin("texture", "mesh_attribute").with("name", name).string("name", "vertex_color");
                 self.child(texture.float("scale", *factor))
             }
-            Color::Texture(source) => self.child(texture(name, source, |e, name, rgb| e.rgb(name, rgb))),
+            Color::Texture(source) => {
+                self.child(texture(name, source, |e, name, rgb| e.unbounded(name, &Color::Constant(rgb))))
+            }
         }
     }
 

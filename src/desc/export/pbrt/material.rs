@@ -37,7 +37,8 @@ pub(super) fn write(
             sheets.push(None);
             continue;
         }
-        let mut w = Writer { beside, out, material, index, names: 0, textures: 0 };
+        let turned = beside.turns_normals(placed, index);
+        let mut w = Writer { beside, out, material, index, turned, names: 0, textures: 0 };
         sheets.push(Some(w.sheet()?));
         if let Some(medium) = medium_of(material, index) {
             let medium = out.line(&format!("MakeNamedMedium \"{medium}\"")).string("type", "homogeneous");
@@ -62,6 +63,8 @@ struct Writer<'a, 'b> {
     out: &'a mut Words,
     material: &'a Material,
     index: usize,
+    /// Its normal map has its y turned.
+    turned: bool,
     names: usize,
     textures: usize,
 }
@@ -103,7 +106,7 @@ impl Writer<'_, '_> {
                 if map.texture.transform != Affine2::IDENTITY {
                     self.note("its normal map is looked up without its transform");
                 }
-                self.beside.normals(&map.texture, map.scale)?
+                self.beside.normals(map, self.turned)?
             }
             _ => None,
         };
