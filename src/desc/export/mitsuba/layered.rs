@@ -2,7 +2,7 @@
 //!
 //! A dielectric base is made of two lobes by `coated.rs`, a metal is `principled` or, where that
 //! loses light, `roughconductor`. The mixture of the two by metalness, and of
-//! what they transmit, is `blendbsdf`. Anisotropy, sheen and coats are `principled` as a whole.
+//! what they transmit, is `blendbsdf`. Sheen and coats are `principled` as a whole.
 
 use super::super::ExportError;
 use super::super::fit;
@@ -23,26 +23,34 @@ pub(super) fn metallic_roughness(w: &mut Writer, m: &MetallicRoughness) -> Resul
     let metallic = w.beside.scalar(&m.metallic, Map::Same)?;
     let f0 = reflectance(w, m);
     let layers = &m.layers;
+    let rough = roughness(w, m);
     let mixed = |s: &Scalar| s.constant().is_none_or(|x| x > 0.0 && x < 1.0);
     let sent = m.transmission.as_ref().map(|t| w.beside.scalar(&t.factor, Map::Same)).transpose()?;
     w.blended |= mixed(&metallic) || sent.is_some_and(|t| mixed(&t));
-    let opaque = if layers.sheen.is_some() || layers.clearcoat.is_some() || layers.anisotropy.is_some() {
+    let opaque = if layers.sheen.is_some() || layers.clearcoat.is_some() {
         two_sided(principled(w, m, &base, &metallic, f0)?)
     } else {
-        let plastic = |w: &mut Writer| coated(w, &m.base_color, &Roughness::Perceptual(m.roughness), [f0; 3]);
-        let metal = |w: &mut Writer| {
-            w.conductor(&Fresnel::Schlick { f0: m.base_color }, &Roughness::Perceptual(m.roughness), "ggx")
-        };
+        let plastic = |w: &mut Writer| coated(w, &m.base_color, &rough, [f0; 3]);
+        let metal = |w: &mut Writer| w.conductor(&Fresnel::Schlick { f0: m.base_color }, &rough, "ggx");
         match metallic.constant() {
-            Some(x) if x <= 0.0 => through(w, m, plastic, f0, &base)?,
+            Some(x) if x <= 0.0 => through(w, m, plastic, f0, &base, &rough)?,
             Some(x) if x >= 1.0 => metal(w)?,
             _ => {
-                let rest = through(w, m, plastic, f0, &base)?;
+                let rest = through(w, m, plastic, f0, &base, &rough)?;
                 blend(rest, metal(w)?, &metallic)
             }
         }
     };
     Ok(opaque)
+}
+
+/// Roughness with the anisotropy, whose direction is the tangent.
+fn roughness(w: &mut Writer, m: &MetallicRoughness) -> Roughness {
+    let Some(a) = &m.layers.anisotropy else { return Roughness::Perceptual(m.roughness) };
+    if a.rotation != 0.0 || a.direction.is_some() {
+        w.note("the direction of its anisotropy is the tangent");
+    }
+    Roughness::Stretched { roughness: m.roughness, strength: a.strength }
 }
 
 /// F₀ of the dielectric, as one number.
@@ -64,11 +72,12 @@ fn through(
     plastic: impl FnOnce(&mut Writer) -> Result<Element, ExportError>,
     f0: f32,
     base: &Color,
+    rough: &Roughness,
 ) -> Result<Element, ExportError> {
     let sent = m.transmission.as_ref().filter(|t| t.factor.factor > 0.0);
     let clear = match sent {
         Some(Transmission { thin: true, .. }) => Some(sheet(w, m, f0, base)?),
-        Some(_) => Some(w.dielectric(m.ior, &Roughness::Perceptual(m.roughness), &m.base_color)?),
+        Some(_) => Some(w.dielectric(m.ior, rough, &m.base_color)?),
         None => None,
     };
     let share = match sent {
@@ -118,22 +127,14 @@ fn principled(
     metallic: &Scalar,
     f0: f32,
 ) -> Result<Element, ExportError> {
-    w.note("with its layers or anisotropy it is Disney's model, which has other diffuse, sheen and coat lobes");
+    w.note("with its layers it is Disney's model, which has other diffuse, sheen and coat lobes");
     let mut bsdf = Element::bsdf("principled").color("base_color", base).scalar("metallic", metallic);
     bsdf = bsdf.float("eta", fit::index(f0).max(1.001));
-    let stretched = match &m.layers.anisotropy {
-        Some(a) => {
-            if a.rotation != 0.0 || a.direction.is_some() {
-                w.note("the direction of its anisotropy is the tangent");
-            }
-            let stretched = Roughness::Stretched { roughness: m.roughness, strength: a.strength };
-            match w.micro(&stretched)? {
-                // The longest that it has is ten to one.
-                Micro::Constant([x, y]) => stretch([x, y.max(0.1001 * x)]),
-                _ => None,
-            }
-        }
-        None => None,
+    // The longest that it has is ten to one.
+    let rough = roughness(w, m);
+    let stretched = match w.micro(&rough)? {
+        Micro::Constant([x, y]) if x != y => stretch([x, y.max(0.1001 * x)]),
+        _ => None,
     };
     bsdf = match stretched {
         Some((roughness, anisotropy)) => bsdf.float("roughness", roughness).float("anisotropic", anisotropy),
