@@ -8,6 +8,7 @@ use crate::desc::{Scene, Shape};
 use crate::film::exr::write_exr;
 use crate::film::file::{check_writable, write_atomic};
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
@@ -18,7 +19,7 @@ pub(super) struct Beside<'a> {
     folder: PathBuf,
     /// Its name, as the scene file says it.
     name: String,
-    meshes: Vec<(Variant, String)>,
+    meshes: HashMap<Variant, String>,
     pictures: Vec<(Picture, String)>,
     notes: Vec<String>,
 }
@@ -27,7 +28,7 @@ impl<'a> Beside<'a> {
     pub(super) fn new(scene: &'a Scene, path: &Path, target: Target) -> Self {
         let name = format!("{}-files", path.file_stem().unwrap_or_default().to_string_lossy());
         let folder = path.with_file_name(&name);
-        Self { scene, target, folder, name, meshes: Vec::new(), pictures: Vec::new(), notes: Vec::new() }
+        Self { scene, target, folder, name, meshes: HashMap::new(), pictures: Vec::new(), notes: Vec::new() }
     }
 
     /// Notes once what the target has otherwise.
@@ -48,7 +49,7 @@ impl<'a> Beside<'a> {
 
     /// The PLY file of a shape, by its path from the scene file.
     pub(super) fn mesh(&mut self, variant: Variant) -> Result<String, ExportError> {
-        if let Some((_, name)) = self.meshes.iter().find(|(known, _)| *known == variant) {
+        if let Some(name) = self.meshes.get(&variant) {
             return Ok(name.clone());
         }
         let mesh = match &self.scene.shapes[variant.shape] {
@@ -59,7 +60,7 @@ impl<'a> Beside<'a> {
         let file = format!("mesh-{}.ply", self.meshes.len());
         self.write(&file, |path| write_atomic(path, |out| out.write_all(&bytes)))?;
         let name = format!("{}/{file}", self.name);
-        self.meshes.push((variant, name.clone()));
+        self.meshes.insert(variant, name.clone());
         Ok(name)
     }
 

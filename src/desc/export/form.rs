@@ -9,6 +9,7 @@ use crate::desc::{
 };
 use crate::math::Transform;
 use glam::{Mat3, Mat4, Vec3};
+use std::collections::HashMap;
 use std::path::Path;
 
 /// Geometry in the world. Maps of quadrics are rotations and translations.
@@ -42,6 +43,23 @@ pub(super) struct Placed<'a> {
     pub(super) emission: Option<Emission>,
     pub(super) form: Form,
     pub(super) uv_set: usize,
+}
+
+/// Shape, material, orientation and texture coordinates.
+pub(super) type Kind = (usize, usize, bool, usize);
+
+impl Placed<'_> {
+    /// What makes copies of each other, but for their places.
+    pub(super) fn kind(&self) -> Kind {
+        (self.object.shape, self.object.material, self.object.reversed, self.uv_set)
+    }
+}
+
+/// How many objects of each kind do not emit.
+pub(super) fn copies(placed: &[Placed]) -> HashMap<Kind, usize> {
+    let mut counts = HashMap::new();
+    placed.iter().filter(|p| p.emission.is_none()).for_each(|p| *counts.entry(p.kind()).or_default() += 1);
+    counts
 }
 
 impl<'a> Beside<'a> {

@@ -8,7 +8,7 @@ use std::fmt::Write;
 pub(super) const INSET: f32 = 1e-5;
 
 /// A shape as one file holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(super) struct Variant {
     /// Index of the shape.
     pub(super) shape: usize,

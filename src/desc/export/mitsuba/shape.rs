@@ -2,17 +2,19 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Placed};
+use super::super::form::{Form, Kind, Placed, copies};
 use super::super::mesh::INSET;
 use super::material::medium_of;
 use super::xml::Element;
 use crate::desc::{Emission, Sides};
 use glam::{Mat4, Vec3};
+use std::collections::HashMap;
 
 /// All shapes, groups before their instances.
 pub(super) fn elements(placed: &[Placed], beside: &mut Beside) -> Result<Vec<Element>, ExportError> {
     let mut elements = Vec::new();
-    let mut groups: Vec<(&Placed, String)> = Vec::new();
+    let copies = copies(placed);
+    let mut groups: HashMap<Kind, String> = HashMap::new();
     for one in placed {
         let Form::Mesh { to_world, .. } = one.form else {
             elements.extend(quadric(one, beside)?);
@@ -20,11 +22,11 @@ pub(super) fn elements(placed: &[Placed], beside: &mut Beside) -> Result<Vec<Ele
         };
         // Emitters and interiors stand for themselves; so does what stands once.
         let alone = one.emission.is_some() || medium_of(one.material, one.object.material).is_some();
-        if alone || placed.iter().filter(|other| is_copy(one, other)).count() < 2 {
+        if alone || copies[&one.kind()] < 2 {
             elements.extend(mesh(one, beside)?);
             continue;
         }
-        let known = groups.iter().find(|(first, _)| is_copy(first, one)).map(|(_, id)| id.clone());
+        let known = groups.get(&one.kind()).cloned();
         let id = match known {
             Some(id) => id,
             None => {
@@ -32,7 +34,7 @@ pub(super) fn elements(placed: &[Placed], beside: &mut Beside) -> Result<Vec<Ele
                 let file = beside.mesh_of(one, one.object.reversed, one.object.reversed, false)?;
                 let shape = owned(ply(&file, one, beside), one);
                 elements.push(Element::plugin("shape", "shapegroup").with("id", &id).child(shape));
-                groups.push((one, id.clone()));
+                groups.insert(one.kind(), id.clone());
                 id
             }
         };
@@ -40,12 +42,6 @@ pub(super) fn elements(placed: &[Placed], beside: &mut Beside) -> Result<Vec<Ele
         elements.push(Element::plugin("shape", "instance").child(group).transform("to_world", to_world));
     }
     Ok(elements)
-}
-
-/// The same but for its place.
-fn is_copy(a: &Placed, b: &Placed) -> bool {
-    let key = |p: &Placed| (p.object.shape, p.object.material, p.object.reversed, p.uv_set);
-    key(a) == key(b) && a.emission.is_none() && b.emission.is_none()
 }
 
 fn ply(file: &str, one: &Placed, beside: &Beside) -> Element {

@@ -2,12 +2,13 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Placed};
+use super::super::form::{Form, Kind, Placed, copies};
 use super::super::value::Color;
 use super::material::{Sheet, medium_of};
 use super::words::{Named, Words};
 use crate::desc::Sides;
 use glam::Mat4;
+use std::collections::HashMap;
 
 pub(super) fn write(
     placed: &[Placed],
@@ -15,18 +16,19 @@ pub(super) fn write(
     beside: &mut Beside,
     out: &mut Words,
 ) -> Result<(), ExportError> {
-    let mut objects: Vec<(&Placed, String)> = Vec::new();
+    let copies = copies(placed);
+    let mut objects: HashMap<Kind, String> = HashMap::new();
     for one in placed {
         let alone = one.emission.is_some() || medium_of(one.material, one.object.material).is_some();
         let Form::Mesh { to_world, .. } = one.form else {
             whole(one, sheets, beside, out)?;
             continue;
         };
-        if alone || placed.iter().filter(|other| is_copy(one, other)).count() < 2 {
+        if alone || copies[&one.kind()] < 2 {
             whole(one, sheets, beside, out)?;
             continue;
         }
-        let known = objects.iter().find(|(first, _)| is_copy(first, one)).map(|(_, name)| name.clone());
+        let known = objects.get(&one.kind()).cloned();
         let name = match known {
             Some(name) => name,
             None => {
@@ -34,7 +36,7 @@ pub(super) fn write(
                 out.line(&format!("ObjectBegin \"{name}\""));
                 surface(one, sheets, beside, out)?;
                 out.line("ObjectEnd");
-                objects.push((one, name.clone()));
+                objects.insert(one.kind(), name.clone());
                 name
             }
         };
@@ -44,12 +46,6 @@ pub(super) fn write(
         out.line("AttributeEnd");
     }
     Ok(())
-}
-
-/// The same but for its place.
-fn is_copy(a: &Placed, b: &Placed) -> bool {
-    let key = |p: &Placed| (p.object.shape, p.object.material, p.object.reversed, p.uv_set);
-    key(a) == key(b) && a.emission.is_none() && b.emission.is_none()
 }
 
 /// An object where it stands.
