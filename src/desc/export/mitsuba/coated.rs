@@ -40,6 +40,9 @@ pub(super) fn coated(
     if strongest <= 1e-6 {
         return Ok(two_sided(diffuse(&w.share(base)?)));
     }
+    if f0.iter().any(|x| *x != f0[0]) {
+        w.note("under its coloured coat the base is dimmed in all lanes as in that of the strongest reflection");
+    }
     let eta = fit::index(strongest);
     let micro = w.micro(roughness)?;
     let tint = Color::Constant(f0.map(|x| (x / strongest).clamp(0.0, 1.0)));
