@@ -42,7 +42,7 @@
 //! | 2 | [`medium`] | what is inside closed surfaces: absorption, index, nesting |
 //! | 2 | [`texture`] | constants, images, checkers |
 //! | 2 | [`shape`] | triangles and quadrics: intersect, sample |
-//! | 2 | [`desc`] | what the author wrote, and the readers of TOML, glTF, OBJ, PLY |
+//! | 2 | [`desc`] | what the author wrote, the readers of TOML, glTF, OBJ, PLY, the writers for Mitsuba and pbrt |
 //! | 2 | [`film`] | sums per pixel, errors, EXR and PNG |
 //! | 3 | [`material`] | parameters and textures at a hit → lobes |
 //! | 3 | [`bvh`] | nearest hit? occluded? |

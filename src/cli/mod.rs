@@ -4,6 +4,7 @@ mod args;
 mod compare;
 mod conformance;
 mod environment;
+mod export;
 mod failure;
 mod info;
 mod interrupt;
@@ -32,6 +33,8 @@ enum Command {
     Render(Box<render::Arguments>),
     /// Say what a scene holds, or print the JSON Schema of scene files
     Info(info::Arguments),
+    /// Write a scene for another renderer: Mitsuba 3, pbrt-v4
+    Export(Box<export::Arguments>),
     /// Compare two EXR images: errors, bias and its z
     Compare(compare::Arguments),
     /// Prove the estimator: closed forms, densities, reciprocity, energy, agreement of estimators
@@ -44,6 +47,7 @@ pub(crate) fn run(cli: &Cli) -> Result<(), Failure> {
     match &cli.command {
         Command::Render(arguments) => render::run(arguments),
         Command::Info(arguments) => info::run(arguments),
+        Command::Export(arguments) => export::run(arguments),
         Command::Compare(arguments) => compare::run(arguments),
         Command::Verify(arguments) => verify::run(arguments),
     }

@@ -7,7 +7,7 @@ use radianza::film::{Display, LayerKind};
 use radianza::render::Settings;
 
 /// Samples per pixel where nobody says anything.
-const SPP: u32 = 128;
+pub(super) const SPP: u32 = 128;
 
 /// Height where the camera gives no resolution; its width follows from the camera's aspect, else it is 16:9.
 const HEIGHT: u32 = 720;
@@ -75,7 +75,7 @@ pub(super) fn choose(arguments: &Arguments, scene: &desc::Scene) -> Result<Choic
 }
 
 /// By name, else by index; the first without.
-fn camera(wanted: Option<&str>, cameras: &[Camera]) -> Result<usize, Failure> {
+pub(super) fn camera(wanted: Option<&str>, cameras: &[Camera]) -> Result<usize, Failure> {
     let wanted = wanted.unwrap_or("0");
     let named = cameras.iter().position(|c| c.name == wanted);
     let index = named.or_else(|| wanted.parse().ok().filter(|&i: &usize| i < cameras.len()));
@@ -85,7 +85,7 @@ fn camera(wanted: Option<&str>, cameras: &[Camera]) -> Result<usize, Failure> {
     })
 }
 
-fn resolution(camera: &Camera) -> [u32; 2] {
+pub(super) fn resolution(camera: &Camera) -> [u32; 2] {
     let panorama = camera.projection == Projection::Equirectangular;
     let aspect = camera.aspect.unwrap_or(if panorama { 2.0 } else { 16.0 / 9.0 });
     camera.resolution.unwrap_or([(HEIGHT as f32 * aspect).round().clamp(1.0, 65_536.0) as u32, HEIGHT])

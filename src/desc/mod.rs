@@ -6,6 +6,7 @@ mod complete;
 pub mod cube_map;
 mod error;
 mod expect;
+pub mod export;
 pub mod files;
 mod frame_camera;
 pub mod gltf;

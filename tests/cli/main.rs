@@ -66,7 +66,7 @@ fn help_names_commands_options_and_exit_codes() {
     let folder = folder();
     let (code, out, err) = radianza(folder.path(), &["--help"]);
     assert_eq!((code, err.as_str()), (0, ""));
-    for word in ["render", "info", "compare", "verify", "Exit codes", "75"] {
+    for word in ["render", "info", "export", "compare", "verify", "Exit codes", "75"] {
         assert!(out.contains(word), "{word} in\n{out}");
     }
     let (code, out, _) = radianza(folder.path(), &["render", "--help"]);
