@@ -15,15 +15,15 @@ const LEAF_COST: f32 = 1.5;
 
 /// How long a hierarchy may take to build, for how fast it is traced.
 ///
-/// `cargo bench --bench rays`, in units of [`Default`](Self::Default): seconds of building a million triangles of rolling hills (1.4 s
-/// on two cores that had more to do), and geometric means of the rays that a core traces in a second, of camera rays, two bounces and
+/// `cargo bench --bench rays`, in units of [`Default`](Self::Default): seconds of building a million triangles of rolling hills (0.88 s
+/// on two cores of a Xeon), and geometric means of the rays that a core traces in a second, of camera rays, two bounces and
 /// shadows:
 ///
 /// | | seconds | hills | 10,000 spheres | hall with slanting columns |
 /// | --- | --- | --- | --- | --- |
-/// | `Preview` | 0.6 | 0.97 | 0.97 | 1.02 |
+/// | `Preview` | 0.8 | 0.98 | 0.97 | 0.98 |
 /// | `Default` | 1 | 1 | 1 | 1 |
-/// | `Best` | 2.6 | 1.06 | 1.05 | 1.15 |
+/// | `Best` | 2.8 | 1.07 | 1.02 | 1.14 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// Clustered, hardly improved.
