@@ -2,7 +2,7 @@
 
 use super::entry::{Entry, Layers, MAX_LAYERS, Transmitted, transmitted};
 use super::lambert::sample_cosine;
-use super::{Class, Eval, Layer, Lobe, Pdf, Sample, Transport};
+use super::{Class, Eval, Ggx, Layer, Lobe, Pdf, Sample, Transport};
 use crate::math::Frame;
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
@@ -255,6 +255,18 @@ impl Bsdf {
             }
         }
         sum
+    }
+
+    /// Some lobe is a hundred times as long as it is wide, or more, and hardly wider than a mirror's: as a function it can be
+    /// evaluated, but no quadrature over directions resolves it.
+    pub fn has_needle(&self) -> bool {
+        self.entries.iter().any(|e| match &e.lobe {
+            Lobe::RoughReflection(l) => {
+                let Ggx { ax, ay } = *l.micro().surface();
+                ax.min(ay) < 1e-3 && ax.max(ay) > 100.0 * ax.min(ay)
+            }
+            _ => false,
+        })
     }
 
     /// Directional albedo, reflection and transmission together.

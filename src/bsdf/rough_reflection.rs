@@ -112,6 +112,11 @@ pub fn multiple_scattering(f: Spectrum, loss: f32) -> Spectrum {
 }
 
 impl<M: Microsurface> RoughReflection<M> {
+    /// Its microsurface.
+    pub fn micro(&self) -> &Micro<M> {
+        &self.micro
+    }
+
     /// Microsurface of this material.
     pub fn new(micro: Micro<M>, fresnel: Fresnel) -> Self {
         Self::with(micro, fresnel, multiple_scattering(fresnel.average(), micro.energy.mean.loss))
