@@ -99,32 +99,31 @@ fn undeclared(subject: &Subject, trial: &Trial, found: &mut Findings) {
     let rays = (trial.work(RAYS[0], RAYS[1]) / groups.len().max(1)).clamp(2_000, 200_000);
     let (mut closed, mut total, mut escaped) = (0, 0, 0);
     let [mut open, mut large, mut refracting, mut inverted] = [const { Vec::<String>::new() }; 4];
-    let mut known: Vec<Vec<usize>> = Vec::new();
+    // Surfaces that were looked at, and whether they are open.
+    let mut known: Vec<(Vec<usize>, bool)> = Vec::new();
     for group in groups {
         // The same shapes again are the same surface.
         let shapes: Vec<usize> = group.iter().map(|i| scene.objects[*i].shape).collect();
-        if known.contains(&shapes) {
+        let name = &scene.objects[group[0]].name;
+        let objects = || group.iter().map(|i| &scene.objects[*i]);
+        let bent = objects().find(|o| scene.materials.get(o.material).is_some_and(|m| refracts(&m.model)));
+        let bent = bent.map(|o| format!("`{}` on `{name}`", scene.materials[o.material].name));
+        if let Some((_, is_open)) = known.iter().find(|(other, _)| *other == shapes) {
+            refracting.extend(bent.filter(|_| *is_open));
             continue;
         }
-        known.push(shapes);
-        let name = &scene.objects[group[0]].name;
-        let size: usize = group.iter().map(|i| triangles_of(scene, &scene.objects[*i])).sum();
+        let size: usize = objects().map(|object| triangles_of(scene, object)).sum();
         if size > trial.pick(MOST_TRIANGLES[0], MOST_TRIANGLES[1]) {
             large.push(format!("`{name}`"));
+            known.push((shapes, false));
             continue;
         }
         let surface = Surface::new(scene, &group);
         let edges = Edges::of(&surface.triangles);
-        let bent = group
-            .iter()
-            .map(|i| &scene.objects[*i])
-            .find(|o| scene.materials.get(o.material).is_some_and(|m| refracts(&m.model)));
+        known.push((shapes, !edges.closed()));
         if !edges.closed() {
             open.push(format!("`{name}` ({} of {} edges)", edges.open + edges.twisted, edges.all));
-            if let Some(object) = bent {
-                let material = &scene.materials[object.material].name;
-                refracting.push(format!("`{material}` on `{name}`"));
-            }
+            refracting.extend(bent);
             continue;
         }
         if surface.volume < 0.0 {
