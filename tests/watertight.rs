@@ -3,7 +3,7 @@
 mod common;
 
 use common::closed_mesh;
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 use radianza::bsdf::Bsdf;
 use radianza::bvh::{Isa, Quality, TriangleBvh};
 use radianza::desc::{self, ColorParam, Model, Object, Shape};
@@ -66,15 +66,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
     let (triangles, mesh) = (indices.len(), desc::Mesh { positions, indices, ..Default::default() });
     assert!(triangles > 1_000_000);
     let white = Model::Diffuse { reflectance: ColorParam::constant([1.0; 3]) };
-    let object = Object {
-        name: String::new(),
-        shape: 0,
-        to_world: Mat4::IDENTITY,
-        material: 0,
-        emission: None,
-        reversed: false,
-        closed: true,
-    };
+    let object = Object { closed: true, ..Object::new(0, 0) };
     let scene = Scene::compile(&desc::Scene {
         shapes: vec![Shape::Mesh(mesh)],
         objects: vec![object],

@@ -25,19 +25,7 @@ const INVALID: u32 = u32::MAX;
 
 type Handle = *mut c_void;
 
-/// `RTCRayHit`: origin and near end; direction and time; far end, mask, id, flags; then the hit, to which later versions add.
-#[repr(C, align(16))]
-#[derive(Clone, Copy)]
-struct RayHit {
-    origin: [f32; 4],
-    direction: [f32; 4],
-    far: [u32; 4],
-    normal_u: [f32; 4],
-    v_ids: [u32; 4],
-    more: [u32; 4],
-}
-
-/// `RTCRay`.
+/// `RTCRay`: origin and near end; direction and time; far end, mask, id, flags.
 #[repr(C, align(16))]
 #[derive(Clone, Copy)]
 struct PlainRay {
@@ -46,12 +34,22 @@ struct PlainRay {
     far: [u32; 4],
 }
 
+/// `RTCRayHit`: the ray, then the hit, to which later versions add.
+#[repr(C, align(16))]
+#[derive(Clone, Copy)]
+struct RayHit {
+    ray: PlainRay,
+    normal_u: [f32; 4],
+    v_ids: [u32; 4],
+    more: [u32; 4],
+}
+
 type Intersect = unsafe extern "C" fn(Handle, *mut RayHit, *const c_void);
 type Occluded = unsafe extern "C" fn(Handle, *mut PlainRay, *const c_void);
 
 /// The library and a device of one thread.
 pub(crate) struct Embree {
-    library: Library,
+    functions: Library,
     device: Handle,
     intersect: Intersect,
     occluded: Occluded,
@@ -75,7 +73,7 @@ impl Embree {
             let device = new_device(null());
             let intersect = *library.get::<Intersect>(b"rtcIntersect1\0")?;
             let occluded = *library.get::<Occluded>(b"rtcOccluded1\0")?;
-            Ok(Self { library, device, intersect, occluded })
+            Ok(Self { functions: library, device, intersect, occluded })
         }
     }
 
@@ -90,7 +88,7 @@ impl Embree {
         let indices = indices.to_vec();
         let get = |name: &[u8]| -> Handle {
             // SAFETY: the pointer is only turned into the function that the header declares.
-            let symbol = unsafe { self.library.get::<Handle>(name) };
+            let symbol = unsafe { self.functions.get::<Handle>(name) };
             *symbol.unwrap_or_else(|e| panic!("no Embree 4: {e}"))
         };
         macro_rules! call {
@@ -133,22 +131,22 @@ impl Tree<'_> {
             let (o, d) = (ray.o, ray.d);
             let (origin, direction) = ([o.x, o.y, o.z, 0.0], [d.x, d.y, d.z, 0.0]);
             let far = [ray.t_max.to_bits(), u32::MAX, 0, 0];
+            let mut ray = PlainRay { origin, direction, far };
             match query {
                 Query::Nearest => {
                     let v_ids = [0, INVALID, INVALID, INVALID];
-                    let mut r = RayHit { origin, direction, far, normal_u: [0.0; 4], v_ids, more: [INVALID; 4] };
+                    let mut r = RayHit { ray, normal_u: [0.0; 4], v_ids, more: [INVALID; 4] };
                     // SAFETY: the scene is committed, and the ray laid out and aligned as the header says.
                     unsafe { intersect(self.scene, &raw mut r, null()) };
                     if r.v_ids[2] != INVALID {
                         met += 1;
-                        sum += f64::from(f32::from_bits(r.far[0]));
+                        sum += f64::from(f32::from_bits(r.ray.far[0]));
                     }
                 }
                 Query::Occluded => {
-                    let mut r = PlainRay { origin, direction, far };
                     // SAFETY: as above.
-                    unsafe { occluded(self.scene, &raw mut r, null()) };
-                    met += usize::from(f32::from_bits(r.far[0]) < 0.0);
+                    unsafe { occluded(self.scene, &raw mut ray, null()) };
+                    met += usize::from(f32::from_bits(ray.far[0]) < 0.0);
                 }
             }
         }
@@ -160,7 +158,7 @@ impl Drop for Tree<'_> {
     fn drop(&mut self) {
         // SAFETY: the scene is released once, before its library.
         unsafe {
-            if let Ok(release) = self.embree.library.get::<unsafe extern "C" fn(Handle)>(b"rtcReleaseScene\0") {
+            if let Ok(release) = self.embree.functions.get::<unsafe extern "C" fn(Handle)>(b"rtcReleaseScene\0") {
                 release(self.scene);
             }
         }

@@ -4,7 +4,7 @@
 //! whole numbers are sRGB bytes, others are linear. Texture coordinates count v upwards and are turned.
 
 use super::{ColorParam, Error, Material, Mesh, Model, Object, Scene, Shape, files, image_file, mesh_check};
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
 use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 use std::path::Path;
@@ -27,15 +27,7 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Scene, Error> {
     let reflectance = ColorParam { vertex_color: true, ..ColorParam::constant([0.5; 3]) };
     let factor = if mesh.colors.is_empty() { reflectance.factor } else { [1.0; 3] };
     let material = Material::new("default", Model::Diffuse { reflectance: ColorParam { factor, ..reflectance } });
-    let object = Object {
-        name: name.clone(),
-        shape: 0,
-        to_world: Mat4::IDENTITY,
-        material: 0,
-        emission: None,
-        reversed: false,
-        closed: false,
-    };
+    let object = Object { name: name.clone(), ..Object::new(0, 0) };
     let mut scene = Scene { name, source: Some(path.into()), ..Scene::default() };
     scene.shapes.push(Shape::Mesh(mesh));
     scene.objects.push(object);

@@ -75,3 +75,18 @@ pub struct Object {
     /// The author declares that it bounds a volume, alone or with its neighbours of the same name and place.
     pub closed: bool,
 }
+
+impl Object {
+    /// A shape of this material where it was made, and nothing said beyond that.
+    pub fn new(shape: usize, material: usize) -> Self {
+        Self {
+            name: String::new(),
+            shape,
+            to_world: Mat4::IDENTITY,
+            material,
+            emission: None,
+            reversed: false,
+            closed: false,
+        }
+    }
+}

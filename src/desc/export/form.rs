@@ -222,3 +222,13 @@ fn model(m: &Model, found: &mut Vec<TextureRef>) {
         Model::Absorb => {}
     }
 }
+
+/// Name of the medium inside, where that absorbs.
+pub(super) fn medium_of(material: &Material, index: usize) -> Option<String> {
+    let refracts = match &material.model {
+        Model::Dielectric { .. } => true,
+        Model::MetallicRoughness(m) => m.refracts(),
+        _ => false,
+    };
+    (refracts && material.interior.absorption != [0.0; 3]).then(|| format!("medium-{index}"))
+}

@@ -7,7 +7,7 @@ mod mtl;
 
 use super::files::{self, Folder};
 use super::{Error, Material, Mesh, Model, Object, Scene, Shape, mesh_check};
-use glam::{Mat4, Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec4};
 use std::collections::{BTreeSet, HashMap};
 use std::path::Path;
 
@@ -236,15 +236,9 @@ impl<'a> Reader<'a> {
             }),
         };
         self.scene.shapes.push(Shape::Mesh(mesh));
-        self.scene.objects.push(Object {
-            name: self.name.clone(),
-            shape: self.scene.shapes.len() - 1,
-            to_world: Mat4::IDENTITY,
-            material,
-            emission: None,
-            reversed: false,
-            closed: false,
-        });
+        self.scene
+            .objects
+            .push(Object { name: self.name.clone(), ..Object::new(self.scene.shapes.len() - 1, material) });
         Ok(())
     }
 

@@ -16,7 +16,7 @@ use crate::scene::Scene;
 use crate::shape::{flat_surface, triangle_normal};
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::{uniform_hemisphere, uniform_triangle};
-use glam::{Mat4, Vec3};
+use glam::Vec3;
 
 const TOPIC: Topic = Topic {
     id: "leaks",
@@ -205,15 +205,7 @@ impl Surface {
     fn compile(&self) -> Option<Scene> {
         let positions: Vec<Vec3> = self.triangles.iter().flatten().copied().collect();
         let indices = (0..self.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
-        let object = Object {
-            name: String::new(),
-            shape: 0,
-            to_world: Mat4::IDENTITY,
-            material: 0,
-            emission: None,
-            reversed: false,
-            closed: true,
-        };
+        let object = Object { closed: true, ..Object::new(0, 0) };
         let alone = desc::Scene {
             shapes: vec![Shape::Mesh(desc::Mesh { positions, indices, ..desc::Mesh::default() })],
             objects: vec![object],

@@ -194,10 +194,11 @@ impl Exam<'_> {
             let trial = &trial.part(&at);
             draws(found, trial, &at, &bsdf, wo, CLAIMS.rounding);
             let sampled = sampled(trial, &bsdf, wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
-            if first && COUNTED.contains(&mu) && bsdf.has_needle() {
+            let counted = first && COUNTED.contains(&mu);
+            if counted && bsdf.has_needle() {
                 found.words.push(format!("`{}`: {at}: so stretched that χ² is left out", self.name));
             }
-            if first && COUNTED.contains(&mu) && !bsdf.has_needle() {
+            if counted && !bsdf.has_needle() {
                 let integrals = density(found, trial, &at, &bsdf, wo);
                 energy(found, &at, &Claims { granted: self.granted(), ..CLAIMS }, &integrals, &sampled);
             } else {

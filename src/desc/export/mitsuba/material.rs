@@ -6,14 +6,14 @@
 use super::super::ExportError;
 use super::super::beside::Beside;
 use super::super::fit;
-use super::super::form::Placed;
+use super::super::form::{Placed, medium_of};
 use super::super::micro::Micro;
 use super::super::picture::Map;
 use super::super::value::{Color, Scalar};
 use super::layered;
 use super::xml::Element;
 use crate::bsdf::MIN_ALPHA;
-use crate::desc::{Alpha, ColorParam, Dispersion, Fresnel, Material, Model, Roughness, Wrap};
+use crate::desc::{Alpha, ColorParam, Dispersion, Fresnel, Model, Roughness, Wrap};
 
 /// Least share of σ_a of a lane.
 const CLEAR: f32 = 1e-6;
@@ -58,16 +58,6 @@ pub(super) fn element(index: usize, placed: &[Placed], beside: &mut Beside) -> R
         writer.note("overlapping interiors have no priorities");
     }
     Ok(bsdf.with("id", format_args!("material-{index}")))
-}
-
-/// Name of the medium inside, where that absorbs.
-pub(super) fn medium_of(material: &Material, index: usize) -> Option<String> {
-    let refracts = match &material.model {
-        Model::Dielectric { .. } => true,
-        Model::MetallicRoughness(m) => m.refracts(),
-        _ => false,
-    };
-    (refracts && material.interior.absorption != [0.0; 3]).then(|| format!("medium-{index}"))
 }
 
 /// Media inside of all materials that have one.

@@ -2,9 +2,8 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Kind, Placed, copies};
+use super::super::form::{Form, Kind, Placed, copies, medium_of};
 use super::super::mesh::INSET;
-use super::material::medium_of;
 use super::xml::Element;
 use crate::desc::{Emission, Sides};
 use glam::{Mat4, Vec3};

@@ -6,7 +6,7 @@
 use super::super::ExportError;
 use super::super::beside::Beside;
 use super::super::fit;
-use super::super::form::Placed;
+use super::super::form::{Placed, medium_of};
 use super::super::micro::Micro;
 use super::super::picture::Map;
 use super::super::value::{Color, Pattern, Scalar, Source};
@@ -46,16 +46,6 @@ pub(super) fn write(
         }
     }
     Ok(sheets)
-}
-
-/// Name of the medium inside, where that absorbs.
-pub(super) fn medium_of(material: &Material, index: usize) -> Option<String> {
-    let refracts = match &material.model {
-        Model::Dielectric { .. } => true,
-        Model::MetallicRoughness(m) => m.refracts(),
-        _ => false,
-    };
-    (refracts && material.interior.absorption != [0.0; 3]).then(|| format!("medium-{index}"))
 }
 
 struct Writer<'a, 'b> {

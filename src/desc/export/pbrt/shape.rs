@@ -2,9 +2,9 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Kind, Placed, copies};
+use super::super::form::{Form, Kind, Placed, copies, medium_of};
 use super::super::value::Color;
-use super::material::{Sheet, medium_of};
+use super::material::Sheet;
 use super::words::{Named, Words};
 use crate::desc::Sides;
 use glam::Mat4;
