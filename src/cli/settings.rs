@@ -16,7 +16,7 @@ const HEIGHT: u32 = 720;
 const MAX_PIXELS: u64 = 1 << 28;
 
 /// Side of the tiles that threads work on.
-const TILE: u32 = 32;
+const TILE: u32 = 16;
 
 /// The outcome of all choices.
 pub(super) struct Choices {

@@ -64,7 +64,7 @@ pub(super) fn reflected<O: Observer>(
     let next = scatter::draw(method, vertex, shading, choose_lobe, u_bsdf, sampler);
 
     // By light.
-    if sees_lights(vertex, shading, scene) {
+    if sees_lights(shading, scene) {
         let stray = next.and_then(|next| next.stray);
         let (all, specular, _) = direct_light(method, vertex, shading, sides, stray, 0, choose_light, u_light, watch);
         sum += all;

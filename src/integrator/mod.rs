@@ -225,8 +225,8 @@ fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
 }
 
 /// Whether light that the light sampler finds is reflected.
-fn sees_lights(vertex: &Vertex, shading: &Shading, scene: &Scene) -> bool {
-    (shading.bsdf.has_smooth() || shading.is_bent(vertex)) && !scene.lights.is_empty()
+fn sees_lights(shading: &Shading, scene: &Scene) -> bool {
+    (shading.bsdf.has_smooth() || shading.is_bent()) && !scene.lights.is_empty()
 }
 
 #[cfg(test)]

@@ -10,8 +10,13 @@ use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::spectrum::Spectrum;
 
-/// First vertex at which roulette is played. On the Cornell box error times seconds is the same within 7 % from 2 to 5.
-const ROULETTE_FROM: u32 = 3;
+/// Throughput below which roulette is played, η² of refractions kept out; the survivors are held there. What a game at
+/// greater throughput saves it costs in variance: on the Cornell box error times seconds is least, and flat, from 1/2 to
+/// 1/6, and 40 % greater where the game is played from the start.
+const FAINT: f32 = 1.0 / 3.0;
+
+/// From this many reflections on it is played at any throughput, for paths that nothing is lost of.
+const LONG: u32 = 8;
 
 /// L(x, ω) = Le + ∫ f L |cos| dω with the integral split in two: light that arrives straight from a light, drawn by
 /// the light sampler and met by chance, and light that arrives reflected, by recursion.
@@ -58,7 +63,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let next = scatter::draw(method, vertex, &shading, choose_lobe, u_bsdf, sampler);
 
         // ∫ by light
-        if sees_lights(vertex, &shading, scene) {
+        if sees_lights(&shading, scene) {
             let stray = next.and_then(|next| next.stray);
             let sheets = method.max_depth - depth - 1;
             let (all, specular, sheets) =
@@ -94,8 +99,9 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         if beta.is_black() {
             break;
         }
-        if depth + 1 >= ROULETTE_FROM {
-            let survival = strategy::survival(beta, eta_scale);
+        let throughput = beta.max_element() * eta_scale;
+        if throughput < FAINT || depth >= LONG {
+            let survival = strategy::survival(throughput, FAINT);
             if sampler.next_1d() >= survival {
                 break;
             }

@@ -4,7 +4,6 @@ use super::Method;
 use crate::bsdf::{Bsdf, Pdf, Sample, Transport};
 use crate::desc::Strategy;
 use crate::light::Receiver;
-use crate::spectrum::Spectrum;
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};
 
@@ -94,9 +93,10 @@ fn cosine_hemisphere(u: [f32; 2]) -> (Vec3, f32) {
     (Vec3::new(r * cos, r * sin, z), z / PI)
 }
 
-/// Probability that a path of this throughput goes on: the throughput itself, η² of refractions kept out
-/// (`eta_scale` is ∏ 1/η² … undone), and never 1, so that lossless closed scenes end.
-pub fn survival(beta: Spectrum, eta_scale: f32) -> f32 {
+/// Probability that a path of this throughput goes on: in proportion to it below `held`, so that the survivors are held
+/// there, and never 1, so that lossless closed scenes end.
+#[inline]
+pub fn survival(throughput: f32, held: f32) -> f32 {
     const MOST: f32 = 0.999;
-    (beta.max_element() * eta_scale).min(MOST)
+    (throughput / held).min(MOST)
 }

@@ -45,7 +45,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         }
 
         // The smooth lobes, and what perfect ones send into a surface with a bent normal: local light.
-        if shading.bsdf.has_smooth() || shading.is_bent(&vertex) {
+        if shading.bsdf.has_smooth() || shading.is_bent() {
             let smooth = |drawn| matches!(drawn, Drawn::Smooth { .. });
             let local = reflected(method, &vertex, &shading, sides, sampler, watch, beta, classes, smooth);
             sample.radiance += beta * local;
@@ -58,7 +58,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
                 continue;
             }
             let mut beta = beta * next.weight;
-            let survival = strategy::survival(beta, 1.0 / FAINT);
+            let survival = strategy::survival(beta.max_element(), FAINT);
             if beta.is_black() || sampler.next_1d() >= survival {
                 continue;
             }

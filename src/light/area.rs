@@ -16,11 +16,11 @@ pub(super) struct Sight {
 
 impl Sight {
     /// `None` where the points coincide or the surface is seen edge-on.
-    #[inline]
+    #[inline(always)]
     pub(super) fn new(reference: Vec3, p: Vec3, ng: Vec3) -> Option<Self> {
         let to = p - reference;
         let distance = to.length();
-        let wi = to / distance;
+        let wi = to * distance.recip();
         let cos = -wi.dot(ng);
         // Also false for NaN.
         (distance > 0.0 && distance.is_finite() && cos.abs() > 0.0).then_some(Self { wi, distance, cos })

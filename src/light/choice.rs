@@ -61,13 +61,20 @@ impl Choice {
 
     /// A light and its probability, at `uc`; `None` where no light reaches the receiver. A way down a deep tree takes
     /// more than the 24 bits of `uc`: the others are hashed from `u`, which places the point on the light.
-    #[inline]
+    #[inline(always)]
     pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         let alias = self.alias.as_ref()?;
-        let Some(many) = &self.many else {
-            let index = alias.choose(uc);
-            return Some((index as u32, alias.probability(index)));
-        };
+        match &self.many {
+            None => {
+                let index = alias.choose(uc);
+                Some((index as u32, alias.probability(index)))
+            }
+            Some(many) => self.choose_of(many, alias, receiver, uc, u),
+        }
+    }
+
+    #[inline(never)]
+    fn choose_of(&self, many: &Many, alias: &Alias, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         let fine = f64::from(uc) + f64::from(scrambled(u)) * 2f64.powi(-56);
         let by_power = f64::from(BY_POWER);
         if fine < by_power {

@@ -56,7 +56,7 @@ impl Lights {
 
     /// Draws light that arrives at the receiver: `uc` chooses the light, `u` the point on it. The density (or
     /// probability) includes that of the choice.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, receiver: &Receiver, uc: f32, u: [f32; 2], textures: &Textures) -> Option<(u32, LightSample)> {
         let (index, choice) = self.choose(receiver, uc, u)?;
         let light = &self.lights[index as usize];
@@ -67,10 +67,14 @@ impl Lights {
         };
         // Several environments, or a sun in the sky, are one: a direction meets all of them.
         if self.environments.len() > 1 && light.surrounds() {
-            sample.le = self.environment_le(sample.wi);
-            sample.pdf = Pdf::SolidAngle(self.environment_pdf(receiver, sample.wi));
+            (sample.le, sample.pdf) = self.environments_towards(receiver, sample.wi);
         }
         Some((index, sample))
+    }
+
+    #[inline(never)]
+    fn environments_towards(&self, receiver: &Receiver, wi: Vec3) -> (Spectrum, Pdf) {
+        (self.environment_le(wi), Pdf::SolidAngle(self.environment_pdf(receiver, wi)))
     }
 
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws the point `p`, with geometric

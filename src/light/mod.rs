@@ -108,8 +108,17 @@ impl Light {
     }
 
     /// Draws light that arrives at `p`, nothing in between considered; `None` where the draw carries none.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, p: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+        match self {
+            Self::Triangle(light) => light.sample(p, u, textures),
+            other => other.sample_large(p, u, textures),
+        }
+    }
+
+    /// The same of all but triangles: apart from these, so that they do not pass through memory for its sake.
+    #[inline(never)]
+    fn sample_large(&self, p: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         match self {
             Self::Triangle(light) => light.sample(p, u, textures),
             Self::Quadric(light) => light.sample(p, u, textures),

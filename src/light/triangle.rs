@@ -98,7 +98,7 @@ impl TriangleLight {
     }
 
     /// Draws a point of the triangle: by solid angle from near, by area from afar; or by how brightly its parts shine.
-    #[inline]
+    #[inline(always)]
     pub fn sample(&self, reference: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         // Nothing is emitted to the back.
         let front = self.ng.dot(reference - self.p[0]) > 0.0;
@@ -128,24 +128,35 @@ impl TriangleLight {
     }
 
     /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density.
-    #[inline]
+    #[inline(always)]
     fn sample_plain(&self, reference: Vec3, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
-        if let Some(spherical) = self.spherical(reference) {
-            let w = spherical.sample(u);
-            let (u, v, distance) = self.along(reference, w)?;
-            let wi = w.as_vec3();
-            let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
-            let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
-            Some(([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32))
-        } else {
-            let [_, u, v] = uniform_triangle(u);
-            let (sight, end) = self.sight(reference, [u, v])?;
-            Some(([u, v], sight, end, sight.solid_angle_pdf(1.0 / self.area)))
+        if self.is_near(reference)
+            && let Some(spherical) = SphericalTriangle::new(&self.p, reference)
+        {
+            return self.sample_spherical(&spherical, reference, u);
         }
+        let [_, u, v] = uniform_triangle(u);
+        let (sight, end) = self.sight(reference, [u, v])?;
+        Some(([u, v], sight, end, sight.solid_angle_pdf(1.0 / self.area)))
+    }
+
+    #[inline(never)]
+    fn sample_spherical(
+        &self,
+        spherical: &SphericalTriangle,
+        reference: Vec3,
+        u: [f32; 2],
+    ) -> Option<([f32; 2], Sight, f32, f32)> {
+        let w = spherical.sample(u);
+        let (u, v, distance) = self.along(reference, w)?;
+        let wi = w.as_vec3();
+        let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
+        let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
+        Some(([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32))
     }
 
     /// How the point with these weights is seen, and where the shadow ray to it ends.
-    #[inline]
+    #[inline(always)]
     fn sight(&self, reference: Vec3, [u, v]: [f32; 2]) -> Option<(Sight, f32)> {
         let p = interpolate(self.p, u, v);
         let sight = Sight::new(reference, p, self.ng)?;
@@ -226,8 +237,12 @@ impl TriangleLight {
     /// The triangle on the sphere about `reference`, where it is sampled by solid angle.
     #[inline]
     fn spherical(&self, reference: Vec3) -> Option<SphericalTriangle> {
-        let near = reference.distance_squared(self.centroid) < self.near2;
-        if near { SphericalTriangle::new(&self.p, reference) } else { None }
+        if self.is_near(reference) { SphericalTriangle::new(&self.p, reference) } else { None }
+    }
+
+    #[inline]
+    fn is_near(&self, reference: Vec3) -> bool {
+        reference.distance_squared(self.centroid) < self.near2
     }
 
     /// Weights of the second and third vertex where direction `w` from `reference` meets the triangle, and the

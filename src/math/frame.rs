@@ -32,6 +32,11 @@ impl Frame {
     /// the tangent is parallel to `n` or not finite. `handedness` < 0 mirrors y.
     #[inline]
     pub fn from_z_tangent(n: Vec3, tangent: Vec3, handedness: f32) -> Self {
+        if tangent == Vec3::ZERO { Self::from_z(n) } else { Self::along_tangent(n, tangent, handedness) }
+    }
+
+    #[inline(never)]
+    fn along_tangent(n: Vec3, tangent: Vec3, handedness: f32) -> Self {
         let s = tangent - n * n.dot(tangent);
         let length2 = s.length_squared();
         if !(length2 > 1e-12 * tangent.length_squared() && length2.is_finite()) {

@@ -35,14 +35,10 @@ pub fn offset_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
     let d = n.abs().dot(p_error);
     let offset = if w.dot(n) < 0.0 { -n * d } else { n * d };
     let q = p + offset;
+    // A little more than the distance to the next float; for 0 too.
     let away = |q: f32, o: f32| {
-        if o > 0.0 {
-            q.next_up()
-        } else if o < 0.0 {
-            q.next_down()
-        } else {
-            q
-        }
+        let step = (q.abs() * f32::EPSILON).max(f32::MIN_POSITIVE).copysign(o);
+        if o == 0.0 { q } else { q + step }
     };
     Vec3::new(away(q.x, offset.x), away(q.y, offset.y), away(q.z, offset.z))
 }

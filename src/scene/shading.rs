@@ -17,6 +17,9 @@ pub struct Shading<'a> {
     pub wo: Vec3,
     /// The lobes.
     pub bsdf: &'a Bsdf,
+    /// (1 − cos β)/2 for a shading normal at the angle β to the geometric one: the share of Lambert's light that it sends
+    /// into the surface (the rest is the form factor of a tilted plane to the sky).
+    stray: f32,
 }
 
 impl<'a> Shading<'a> {
@@ -27,7 +30,7 @@ impl<'a> Shading<'a> {
     }
 
     /// The same where the index behind the surface over the one before it is `eta`, not the material's own.
-    #[inline]
+    #[inline(always)]
     pub fn between(
         material: &'a Material,
         vertex: &Vertex,
@@ -40,7 +43,8 @@ impl<'a> Shading<'a> {
         let ns = facing(ns, vertex.wo, vertex.front);
         let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
         let wo = frame.to_local(vertex.wo);
-        Self { frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch) }
+        let stray = (0.5 - 0.5 * ns.dot(s.ng)).max(0.0);
+        Self { frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch), stray }
     }
 
     /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the
@@ -54,7 +58,7 @@ impl<'a> Shading<'a> {
     /// normal is bent: strayed light leaves there), or both where something is transmitted.
     #[inline]
     pub fn receiver(&self, vertex: &Vertex) -> Receiver {
-        let n = if self.is_bent(vertex) { vertex.surface.ng } else { self.frame.n };
+        let n = if self.is_bent() { vertex.surface.ng } else { self.frame.n };
         let facing = match (self.bsdf.transmits(), self.wo.z < 0.0) {
             (true, _) => Facing::Both(n),
             (false, true) => Facing::Half(-n),
@@ -63,23 +67,16 @@ impl<'a> Shading<'a> {
         Receiver { p: vertex.surface.p, facing }
     }
 
-    /// (1 − cos β)/2 for a shading normal at the angle β to the geometric one: the share of Lambert's light that it sends
-    /// into the surface (the rest is the form factor of a tilted plane to the sky).
-    #[inline]
-    fn stray_share(&self, vertex: &Vertex) -> f32 {
-        (0.5 - 0.5 * self.frame.n.dot(vertex.surface.ng)).max(0.0)
-    }
-
     /// The shading normal differs from the geometric one by more than rounding.
     #[inline]
-    pub fn is_bent(&self, vertex: &Vertex) -> bool {
-        self.stray_share(vertex) > 1e-6
+    pub fn is_bent(&self) -> bool {
+        self.stray > 1e-6
     }
 
     /// Density \[1/sr\] that stands for strayed light towards the world direction `wi`.
     #[inline]
     pub fn stray_pdf(&self, vertex: &Vertex, wi: Vec3) -> f32 {
-        self.stray_share(vertex) * wi.dot(vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
+        self.stray * wi.dot(vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
     }
 
     /// The ray that leaves along the world direction `wi`, off the surface by its error bound.

@@ -2,7 +2,7 @@
 
 use crate::bvh::node::TriangleLeaf;
 use crate::math::Ray;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 
 /// Widening of a slab's far side: 1 + 2 γ₃ (Ize 2013, "Robust BVH Ray Traversal") and the rounding of its product with
 /// 1/d, rounded up.
@@ -13,14 +13,15 @@ const FAR: f32 = 1.0 + 5e-7;
 pub(in crate::bvh) struct KernelRay {
     pub(in crate::bvh) o: [f32; 3],
     pub(in crate::bvh) d: [f32; 3],
-    pub(in crate::bvh) d_inv: [f32; 3],
+    /// −1/d.
+    pub(in crate::bvh) minus_d_inv: [f32; 3],
     /// The same, [`FAR`] times.
-    pub(in crate::bvh) d_inv_far: [f32; 3],
+    pub(in crate::bvh) minus_d_inv_far: [f32; 3],
     /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
     pub(in crate::bvh) near: [usize; 3],
     /// Permutation of the axes: the third is the one along which the direction is longest (Woop et al. 2013).
     pub(in crate::bvh) axes: [usize; 3],
-    /// Shear that maps the direction to the third axis.
+    /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
     pub(in crate::bvh) shear: [f32; 3],
     pub(in crate::bvh) t_max: f32,
 }
@@ -29,7 +30,7 @@ impl KernelRay {
     #[inline]
     pub(in crate::bvh) fn new(ray: &Ray) -> Self {
         let Ray { o, d, t_max } = *ray;
-        let d_inv = Vec3::ONE / d;
+        let minus_d_inv = -Vec3A::from(d).recip();
         let kz = d.abs().max_position();
         let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
         // Swapping keeps the winding of triangles.
@@ -37,11 +38,11 @@ impl KernelRay {
         Self {
             o: o.to_array(),
             d: d.to_array(),
-            d_inv: d_inv.to_array(),
-            d_inv_far: (d_inv * FAR).to_array(),
-            near: std::array::from_fn(|axis| 2 * axis + usize::from(d_inv[axis] < 0.0)),
+            minus_d_inv: minus_d_inv.to_array(),
+            minus_d_inv_far: (minus_d_inv * FAR).to_array(),
+            near: std::array::from_fn(|axis| 2 * axis + (d[axis].to_bits() >> 31) as usize),
             axes: [kx, ky, kz],
-            shear: [d[kx] * d_inv[kz], d[ky] * d_inv[kz], d_inv[kz]],
+            shear: [d[kx] * -minus_d_inv[kz], d[ky] * -minus_d_inv[kz], minus_d_inv[kz]],
             t_max,
         }
     }

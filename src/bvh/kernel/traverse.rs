@@ -27,15 +27,16 @@ macro_rules! kernels {
         #[inline]
         $(#[$isa])?
         fn boxes(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, Lanes) {
+            // (o − plane) · (−1/d): subtracted from a register, planes need no load of their own.
             let slab = |axis: usize, plane: usize, d_inv: f32| {
-                Lanes::load(&node.planes[plane & 7]).sub(Lanes::splat(ray.o[axis])).mul(Lanes::splat(d_inv))
+                Lanes::splat(ray.o[axis]).sub(Lanes::load(&node.planes[plane & 7])).mul(Lanes::splat(d_inv))
             };
             // 0 · ∞ (a ray inside the plane of a slab) is NaN: min and max then keep their second operand.
             let mut near = Lanes::splat(0.0);
             let mut far = Lanes::splat(t_max);
             for axis in 0..3 {
-                near = slab(axis, ray.near[axis], ray.d_inv[axis]).max(near);
-                far = slab(axis, ray.near[axis] ^ 1, ray.d_inv_far[axis]).min(far);
+                near = slab(axis, ray.near[axis], ray.minus_d_inv[axis]).max(near);
+                far = slab(axis, ray.near[axis] ^ 1, ray.minus_d_inv_far[axis]).min(far);
             }
             (near.le(far), near)
         }
@@ -61,10 +62,11 @@ macro_rules! kernels {
             let [sx, sy, sz] = ray.shear;
             let (sx, sy, sz) = (Lanes::splat(sx), Lanes::splat(sy), Lanes::splat(sz));
             let (ox, oy, oz) = (Lanes::splat(ray.o[kx]), Lanes::splat(ray.o[ky]), Lanes::splat(ray.o[kz]));
+            // All coordinates negated, which changes no product of two of them; the third is turned back by its factor.
             let vertex = |i: usize| {
-                let z = Lanes::load(&leaf.v[i][kz]).sub(oz);
-                let x = Lanes::load(&leaf.v[i][kx]).sub(ox).sub(sx.mul(z));
-                let y = Lanes::load(&leaf.v[i][ky]).sub(oy).sub(sy.mul(z));
+                let z = oz.sub(Lanes::load(&leaf.v[i][kz]));
+                let x = ox.sub(Lanes::load(&leaf.v[i][kx])).sub(sx.mul(z));
+                let y = oy.sub(Lanes::load(&leaf.v[i][ky])).sub(sy.mul(z));
                 (x, y, z.mul(sz))
             };
             let ((ax, ay, az), (bx, by, bz), (cx, cy, cz)) = (vertex(0), vertex(1), vertex(2));

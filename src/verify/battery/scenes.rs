@@ -74,7 +74,7 @@ fn run(name: &str, row: &str, trial: &Trial, found: &mut Findings) {
     };
     found.checks.holds("an answer is given", !desc.expect.is_empty());
     let aim = trial.aim(1.0, 0.5) * if row.starts_with('F') { 1e-3 } else { 5e-3 };
-    let effort = Effort { aim, own: trial.work(6e5, 1.2e7), others: trial.work(4e4, 7e5) };
+    let effort = Effort { aim, own: trial.work(9e5, 1.2e7), others: trial.work(4e4, 7e5) };
     checks(&desc, &scene, effort, trial, found);
 }
 

@@ -1,5 +1,8 @@
 //! Tiles × sample indices on all cores → film.
 
+mod order;
+mod pass;
+
 use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};
 use crate::film::{Accumulator, Film, PixelSample, filter_offset};
@@ -9,9 +12,10 @@ use crate::sampler::{self, Sampler};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 use glam::Vec2;
+use order::Area;
+use pass::Passes;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
-use std::sync::{Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// What is rendered, and how.
@@ -130,35 +134,6 @@ pub enum Error {
     Threads(#[from] rayon::ThreadPoolBuildError),
 }
 
-/// Most bad samples that are listed one by one.
-const LISTED: usize = 100;
-
-/// What all workers add to.
-struct Sums {
-    film: Film,
-    bad: Vec<BadSample>,
-    bad_count: u64,
-}
-
-impl Sums {
-    fn add(&mut self, tile: Tile) {
-        for ((x, y), sums) in positions(tile.area).zip(&tile.pixels) {
-            self.film.add_replicate(x, y, sums);
-        }
-        self.bad_count += tile.bad.len() as u64;
-        self.bad.extend(tile.bad);
-        if self.bad.len() > 4 * LISTED {
-            first_bad(&mut self.bad);
-        }
-    }
-}
-
-/// Keeps the first bad samples by index and place, whichever worker met them when.
-fn first_bad(bad: &mut Vec<BadSample>) {
-    bad.sort_by_key(|b| (b.index, b.pixel[1], b.pixel[0]));
-    bad.truncate(LISTED);
-}
-
 /// Renders. Every pixel's samples are taken in the order of their indices, whatever the threads and tiles, so the
 /// image is the same bit for bit. `stop` ends it after the running pass (one replicate of every pixel).
 pub fn render(
@@ -173,43 +148,38 @@ pub fn render(
         threads => Some(rayon::ThreadPoolBuilder::new().num_threads(threads).build()?),
     };
     let start = Instant::now();
-    let sums = Mutex::new(Sums {
-        film: Film::new(settings.size, settings.crop, settings.transport),
-        bad: Vec::new(),
-        bad_count: 0,
-    });
-    let tiles = tiles(settings.crop, settings.tile.max(1));
+    let tiles = order::tiles(settings.crop, settings.tile);
     let [x0, y0, x1, y1] = settings.crop;
     let pixels = u64::from(x1 - x0) * u64::from(y1 - y0);
     let total = pixels * u64::from(settings.spp);
     let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
-    let mut done = 0;
-    let mut relative_error = f64::NAN;
-    while done < settings.spp {
-        let enough = settings.time.is_some_and(|limit| start.elapsed() >= limit);
-        if stop.load(Ordering::Relaxed) || (enough && done > 0) {
-            break;
-        }
+    let film = Film::new(settings.size, settings.crop, settings.transport);
+    let passes = Passes::new(film, tiles.len());
 
-        // One replicate of every pixel. A pixel is in one tile, so the order in which tiles end changes no sum.
-        let pass = || {
-            tiles.par_iter().for_each(|&area| {
-                let tile = tracer.tile(area, u64::from(done));
-                let rays = rays.fetch_add(tile.rays, Ordering::Relaxed) + tile.rays;
-                let samples = samples.fetch_add(tile.samples, Ordering::Relaxed) + tile.samples;
-                sums.lock().unwrap_or_else(PoisonError::into_inner).add(tile);
-                progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error });
-            });
-        };
-        match &pool {
-            Some(pool) => pool.install(pass),
-            None => pass(),
-        }
-        done += settings.replicate;
-        relative_error = sums.lock().unwrap_or_else(PoisonError::into_inner).film.relative_error();
+    // Tile after tile, pass after pass: whoever is free takes the next, and nobody waits for a pass to end.
+    let (count, mut begun) = (settings.spp / settings.replicate, 0);
+    let work = (0..count).flat_map(|pass| (0..tiles.len()).map(move |tile| (pass, tile)));
+    let work = work.take_while(|&(pass, tile)| {
+        let enough = || pass > 0 && settings.time.is_some_and(|limit| start.elapsed() >= limit);
+        let goes_on = tile > 0 || !(stop.load(Ordering::Relaxed) || enough());
+        begun = if goes_on { pass + 1 } else { begun };
+        goes_on
+    });
+    let all = || {
+        work.par_bridge().for_each(|(pass, tile)| {
+            let done = tracer.tile(tiles[tile], u64::from(pass) * u64::from(settings.replicate));
+            let rays = rays.fetch_add(done.rays, Ordering::Relaxed) + done.rays;
+            let samples = samples.fetch_add(done.samples, Ordering::Relaxed) + done.samples;
+            let relative_error = passes.add(pass, tile, done);
+            progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error });
+        });
+    };
+    match &pool {
+        Some(pool) => pool.install(all),
+        None => all(),
     }
-    let Sums { film, mut bad, bad_count } = sums.into_inner().unwrap_or_else(PoisonError::into_inner);
-    first_bad(&mut bad);
+    let done = begun * settings.replicate;
+    let (film, bad, bad_count) = passes.finish();
     Ok(Output {
         film,
         bad,
@@ -230,9 +200,7 @@ pub fn replay(scene: &Scene, settings: &Settings, pixel: [u32; 2], index: u64) -
     Ok(format!("pixel {pixel:?}, sample {index}, seed {}\n{}radiance {rgb:?}\n", settings.seed, watch.text))
 }
 
-/// A rectangle of the image: x0, y0, x1, y1.
-type Area = [u32; 4];
-
+/// One replicate of the pixels of a tile.
 struct Tile {
     area: Area,
     pixels: Vec<Accumulator>,
@@ -243,12 +211,6 @@ struct Tile {
 
 fn positions([x0, y0, x1, y1]: Area) -> impl Iterator<Item = (u32, u32)> {
     (y0..y1).flat_map(move |y| (x0..x1).map(move |x| (x, y)))
-}
-
-fn tiles([x0, y0, x1, y1]: Area, side: u32) -> Vec<Area> {
-    let steps = |from: u32, to: u32| (from..to).step_by(side as usize);
-    let area = |x: u32, y: u32| [x, y, x.saturating_add(side).min(x1), y.saturating_add(side).min(y1)];
-    steps(y0, y1).flat_map(|y| steps(x0, x1).map(move |x| area(x, y))).collect()
 }
 
 /// All that a sample is a function of, beside its pixel and index.
@@ -296,11 +258,12 @@ impl<'a> Tracer<'a> {
         for (x, y) in positions(area) {
             let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
-                let (mut classes, mut rays) = (ByClass::default(), RayCount(0));
-                let mut sample = if self.settings.transport {
-                    self.sample([x, y], index, &mut (&mut classes, &mut rays))
+                let mut rays = RayCount(0);
+                let (mut sample, mut classes) = if self.settings.transport {
+                    let mut classes = ByClass::default();
+                    (self.sample([x, y], index, &mut (&mut classes, &mut rays)), Some(classes))
                 } else {
-                    self.sample([x, y], index, &mut rays)
+                    (self.sample([x, y], index, &mut rays), None)
                 };
                 tile.rays += rays.0;
                 // A sample that is no radiance is reported and counts as none.
@@ -308,10 +271,10 @@ impl<'a> Tracer<'a> {
                 if !sample.radiance.is_finite() || rgb.iter().any(|&x| x < 0.0) {
                     tile.bad.push(BadSample { pixel: [x, y], index, rgb });
                     sample.radiance = Spectrum::ZERO;
-                    classes = ByClass::default();
+                    classes = classes.map(|_| ByClass::default());
                 }
                 sums.add(&sample);
-                if self.settings.transport {
+                if let Some(classes) = &classes {
                     sums.add_transport(&classes.0);
                 }
             }
