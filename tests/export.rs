@@ -91,13 +91,13 @@ fn a_small_scene_becomes_this() {
         r#"<rgb name="reflectance" value="0.5, 0.25, 0"/>"#,
         r#"<matrix value="1 0 0 1 0 1 0 2 0 0 1 3 0 0 0 1"/>"#,
         r#"<rgb name="radiance" value="1, 2, 3"/>"#,
-        r#"<string name="filename" value="b-files/mesh-0.ply"/>"#,
+        r#"<string name="filename" value="b-mitsuba/mesh-0.ply"/>"#,
         r#"<boolean name="face_normals" value="true"/>"#,
     ] {
         assert!(text.contains(part), "{part} in\n{text}");
     }
     // Reversed: the vertices of its two triangles run the other way.
-    let ply = std::fs::read(folder.path().join("out/b-files/mesh-0.ply")).unwrap();
+    let ply = std::fs::read(folder.path().join("out/b-mitsuba/mesh-0.ply")).unwrap();
     let faces: Vec<u8> = [[0u32, 2, 1], [0, 3, 2]]
         .iter()
         .flat_map(|t| [3].into_iter().chain(t.iter().flat_map(|i| i.to_le_bytes())))
@@ -123,7 +123,7 @@ fn shapes_and_emitters_are_all_there() {
     let (xml, _) = export(folder.path(), "scenes/interior.toml", "interior.xml", &[]);
     assert_eq!([count(&xml, "shape", "shapegroup"), count(&xml, "shape", "instance")], [6, 24], "{xml}");
     assert!(count(&xml, "bsdf", "normalmap") == 1 && count(&xml, "texture", "bitmap") >= 5, "{xml}");
-    assert!(folder.path().join("interior-files/image-0.png").exists());
+    assert!(folder.path().join("interior-mitsuba/image-0.png").exists());
 }
 
 /// Directives of a pbrt file that begin with this.
@@ -146,7 +146,7 @@ fn pbrt_gets_the_same_scene() {
         "\"string filename\" [ \"a.exr\" ]",
         // Two repeats of the planks, of a v that counts upwards: 1 − (2 − 2 v) is looked up from the top.
         "\"float vscale\" [ 2 ] \"float vdelta\" [ -1 ]",
-        "\"string normalmap\" [ \"a-files/image-2.exr\" ]",
+        "\"string normalmap\" [ \"a-pbrt/image-2.exr\" ]",
         "\"bool remaproughness\" [ false ] \"float roughness\" [ 0.25 ]",
     ] {
         assert!(text.contains(part), "{part} in\n{text}");
@@ -157,7 +157,7 @@ fn pbrt_gets_the_same_scene() {
     assert!(err.contains("note: pbrt: ") && text.contains("# note: "), "{err}");
 
     // v counts upwards there.
-    let ply = std::fs::read(folder.path().join("a-files/mesh-0.ply")).unwrap();
+    let ply = std::fs::read(folder.path().join("a-pbrt/mesh-0.ply")).unwrap();
     let start = ply.windows(11).position(|w| w == b"end_header\n").unwrap() + 11;
     let number = |i: usize| f32::from_le_bytes(ply[start + 4 * i..][..4].try_into().unwrap());
     assert_eq!([number(3), number(4)], [0.0, 1.0]);
@@ -165,7 +165,7 @@ fn pbrt_gets_the_same_scene() {
     let (text, _) = export(folder.path(), "scenes/verify/l2-two-sided.toml", "b.pbrt", &[]);
     assert!(text.contains("\"bool twosided\" [ true ]"), "{text}");
     let (text, _) = export(folder.path(), "scenes/outdoor.toml", "c.pbrt", &[]);
-    assert!(text.contains("LightSource \"infinite\" \"string filename\" [ \"c-files/image-"), "{text}");
+    assert!(text.contains("LightSource \"infinite\" \"string filename\" [ \"c-pbrt/image-"), "{text}");
     let (text, _) = export(folder.path(), "scenes/verify/v1-slab.toml", "d.pbrt", &[]);
     assert!(text.contains("\"rgb sigma_a\"") && lines(&text, "MediumInterface") == 1, "{text}");
 }

@@ -2,7 +2,7 @@
 
 use super::Aabb;
 use super::build::{Quality, build};
-use super::kernel::{self, Isa, KernelRay, Stack};
+use super::kernel::{self, Entry, Isa, KernelRay, Stack};
 use super::node::{LEAF, Node};
 use crate::math::Ray;
 
@@ -18,7 +18,8 @@ pub struct BoxBvh {
 impl BoxBvh {
     /// Builds over boxes, none of them empty.
     pub fn build(boxes: &[Aabb], quality: Quality) -> Self {
-        let tree = build(boxes, quality);
+        // What is in a box costs more to ask than the box.
+        let tree = build(boxes, quality, 1);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
         Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::in_use() }
     }
@@ -33,13 +34,14 @@ impl BoxBvh {
         }
         let mut ray = *ray;
         let prepared = KernelRay::new(&ray);
-        let mut stack = Stack::new();
-        stack.push((0.0, 0));
+        let (mut stack, mut size) = (Stack::new(), 0);
+        stack.push(&mut size, Entry::new(0.0, 0));
         let mut found = false;
-        while let Some((near, child)) = stack.pop() {
-            if near > ray.t_max {
+        while let Some(next) = stack.pop(&mut size) {
+            if next.near() > ray.t_max {
                 continue;
             }
+            let child = next.child();
             if child & LEAF != 0 {
                 for &id in &self.leaves[(child & !LEAF) as usize] {
                     if let Some(t) = hit(id, &ray) {
@@ -52,13 +54,13 @@ impl BoxBvh {
                 }
                 continue;
             }
-            let first = stack.len();
+            let first = size;
             let node = &self.nodes[child as usize];
             let (mut met, near) = kernel::enter(self.isa, node, &prepared, ray.t_max);
             while met != 0 {
                 let lane = met.trailing_zeros() as usize & 7;
                 met &= met - 1;
-                stack.insert(first, (near[lane], node.child[lane]));
+                stack.insert(first, &mut size, Entry::new(near[lane], node.child[lane]));
             }
         }
         found

@@ -69,8 +69,8 @@ impl Boundable for Primitive {
     }
 }
 
-/// Builds a wide tree over boxes, none of them empty.
-pub(super) fn build(boxes: &[Aabb], quality: Quality) -> WideTree {
+/// Builds a wide tree over boxes, none of them empty, with at most `most` ≤ 8 of them in a leaf.
+pub(super) fn build(boxes: &[Aabb], quality: Quality, most: usize) -> WideTree {
     if boxes.is_empty() {
         return WideTree::default();
     }
@@ -79,9 +79,9 @@ pub(super) fn build(boxes: &[Aabb], quality: Quality) -> WideTree {
     // Heaps of coincident boxes make trees deeper than obvhs, in debug builds, asserts.
     let built = std::panic::catch_unwind(|| build_bvh2(&primitives, params, &mut Duration::default()));
     let bvh2 = built.unwrap_or_else(|_| balanced(boxes));
-    match collapse(&bvh2) {
+    match collapse(&bvh2, most) {
         (tree, depth) if depth * (WIDTH - 1) + 1 < STACK => tree,
-        _ => collapse(&balanced(boxes)).0,
+        _ => collapse(&balanced(boxes), most).0,
     }
 }
 
@@ -122,9 +122,9 @@ struct Best {
 
 /// Collapses a binary tree to the eight-wide tree of least SAH cost (Ylitie et al. 2017, section 3), and says its
 /// depth.
-fn collapse(bvh2: &Bvh2) -> (WideTree, usize) {
+fn collapse(bvh2: &Bvh2, most: usize) -> (WideTree, usize) {
     let order = preorder(bvh2);
-    let best = plan(bvh2, &order);
+    let best = plan(bvh2, &order, most);
     let mut tree = WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new() };
     let mut depth = 0;
     let mut todo = vec![(0usize, 0u32, 1usize)];
@@ -171,7 +171,7 @@ fn preorder(bvh2: &Bvh2) -> Vec<u32> {
 }
 
 /// Fills the dynamic program from the leaves up.
-fn plan(bvh2: &Bvh2, preorder: &[u32]) -> Vec<Best> {
+fn plan(bvh2: &Bvh2, preorder: &[u32], most: usize) -> Vec<Best> {
     let unknown = Best { cost: [0.0; WIDTH - 1], split: [0; WIDTH], leaf: true, primitives: 0 };
     let mut best = vec![unknown; bvh2.nodes.len()];
     for &i in preorder.iter().rev() {
@@ -199,9 +199,9 @@ fn plan(bvh2: &Bvh2, preorder: &[u32]) -> Vec<Best> {
             }
         }
         // As one root: a leaf, or a node with eight roots below it.
-        let as_leaf = if own.primitives as usize <= WIDTH { area * LEAF_COST } else { f32::INFINITY };
+        let as_leaf = if own.primitives as usize <= most { area * LEAF_COST } else { f32::INFINITY };
         let as_node = distributed[WIDTH] + area;
-        own.leaf = own.primitives as usize <= WIDTH && (as_leaf <= as_node || as_node.is_nan());
+        own.leaf = own.primitives as usize <= most && (as_leaf <= as_node || as_node.is_nan());
         own.cost[0] = as_leaf.min(as_node);
         // As up to j roots.
         for j in 2..WIDTH {
@@ -294,23 +294,26 @@ mod tests {
     fn every_primitive_is_in_one_leaf_inside_its_box() {
         for n in [1, 2, 7, 8, 9, 63, 1000] {
             for (quality, _) in Quality::ALL {
-                check(&build(&line(n), quality), &line(n));
+                check(&build(&line(n), quality, WIDTH), &line(n));
+                let single = build(&line(n), quality, 1);
+                assert!(single.leaves.iter().all(|ids| ids.len() == 1));
+                check(&single, &line(n));
             }
-            check(&collapse(&balanced(&line(n))).0, &line(n));
+            check(&collapse(&balanced(&line(n)), WIDTH).0, &line(n));
         }
     }
 
     #[test]
     fn balanced_trees_are_shallow() {
-        let (_, depth) = collapse(&balanced(&line(5000)));
+        let (_, depth) = collapse(&balanced(&line(5000)), WIDTH);
         assert!(depth * (WIDTH - 1) + 1 < STACK, "depth {depth}");
     }
 
     #[test]
     fn coincident_and_enormous_boxes_survive() {
         let same = vec![Aabb { min: Vec3::ONE, max: Vec3::ONE }; 300];
-        check(&build(&same, Quality::Default), &same);
+        check(&build(&same, Quality::Default, WIDTH), &same);
         let huge = vec![Aabb { min: Vec3::splat(-3e38), max: Vec3::splat(3e38) }; 20];
-        check(&build(&huge, Quality::Default), &huge);
+        check(&build(&huge, Quality::Default, WIDTH), &huge);
     }
 }

@@ -36,16 +36,21 @@ impl Node {
     };
 }
 
-/// Up to eight triangles; empty lanes are NaN, which no ray hits.
+/// Up to eight triangles; empty lanes are NaN, which no ray hits. Which triangles they are is kept elsewhere: a ray that
+/// looks at a leaf asks that of one in a few.
 #[derive(Clone, Debug)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub(super) struct TriangleLeaf {
     /// Vertex, axis, lane.
     pub(super) v: [[[f32; WIDTH]; 3]; 3],
-    /// Triangle of each lane.
-    pub(super) id: [u32; WIDTH],
 }
 
 impl TriangleLeaf {
-    pub(super) const EMPTY: Self = Self { v: [[[f32::NAN; WIDTH]; 3]; 3], id: [NONE; WIDTH] };
+    pub(super) const EMPTY: Self = Self { v: [[[f32::NAN; WIDTH]; 3]; 3] };
+
+    /// The vertices of one lane.
+    #[inline]
+    pub(super) fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
+        self.v.map(|vertex| vertex.map(|row| row[lane % WIDTH]))
+    }
 }

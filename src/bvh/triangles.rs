@@ -4,7 +4,7 @@ use super::Aabb;
 use super::build::{Quality, build};
 use super::fragments::split;
 use super::kernel::{self, Isa, KernelRay};
-use super::node::{Node, TriangleLeaf, WIDTH};
+use super::node::{NONE, Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
 use arrayvec::ArrayVec;
@@ -30,6 +30,8 @@ pub struct TriangleHit {
 pub struct TriangleBvh {
     nodes: Vec<Node>,
     leaves: Vec<TriangleLeaf>,
+    /// Triangle of each lane of each leaf.
+    ids: Vec<[u32; WIDTH]>,
     bounds: Aabb,
     isa: Isa,
 }
@@ -50,31 +52,33 @@ impl TriangleBvh {
         } else {
             (boxes, kept)
         };
-        let tree = build(&boxes, quality);
+        let tree = build(&boxes, quality, WIDTH);
         drop(boxes);
         let mut leaves = kernel::with_capacity(tree.leaves.len());
-        leaves.extend(tree.leaves.iter().map(|ids| {
+        let mut ids = kernel::with_capacity(tree.leaves.len());
+        for parts in &tree.leaves {
             // Parts of one triangle may have come together again.
             let mut own: ArrayVec<u32, WIDTH> = ArrayVec::new();
-            for id in ids.iter().map(|&i| owners[i as usize]) {
+            for id in parts.iter().map(|&i| owners[i as usize]) {
                 if !own.contains(&id) {
                     own.push(id);
                 }
             }
-            let mut leaf = TriangleLeaf::EMPTY;
+            let (mut leaf, mut lanes) = (TriangleLeaf::EMPTY, [NONE; WIDTH]);
             for (lane, id) in own.into_iter().enumerate() {
-                leaf.id[lane] = id;
+                lanes[lane] = id;
                 for (i, p) in corners(&indices[id as usize]).into_iter().enumerate() {
                     for axis in 0..3 {
                         leaf.v[i][axis][lane] = p[axis];
                     }
                 }
             }
-            leaf
-        }));
+            leaves.push(leaf);
+            ids.push(lanes);
+        }
         let mut nodes = kernel::with_capacity(tree.nodes.len());
         nodes.extend_from_slice(&tree.nodes);
-        Self { leaves, bounds, nodes, isa: Isa::in_use() }
+        Self { leaves, ids, bounds, nodes, isa: Isa::in_use() }
     }
 
     /// The same tree, traversed by another kernel; `None` where this CPU does not run it.
@@ -89,7 +93,11 @@ impl TriangleBvh {
         let mut hit = TriangleHit::default();
         let found = !self.nodes.is_empty()
             && kernel::nearest(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray), &mut hit);
-        found.then_some(hit)
+        if !found {
+            return None;
+        }
+        hit.triangle = self.ids[hit.slot as usize / WIDTH][hit.slot as usize % WIDTH];
+        Some(hit)
     }
 
     /// Whether anything is hit in (0, `ray.t_max`).
@@ -101,8 +109,7 @@ impl TriangleBvh {
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.
     #[inline]
     pub fn vertices(&self, hit: &TriangleHit) -> [Vec3; 3] {
-        let (leaf, lane) = (&self.leaves[hit.slot as usize / WIDTH], hit.slot as usize % WIDTH);
-        [0, 1, 2].map(|i| Vec3::new(leaf.v[i][0][lane], leaf.v[i][1][lane], leaf.v[i][2][lane]))
+        self.leaves[hit.slot as usize / WIDTH].triangle(hit.slot as usize % WIDTH).map(Vec3::from)
     }
 
     /// Box about all triangles.
@@ -112,6 +119,6 @@ impl TriangleBvh {
 
     /// Bytes of nodes and leaves.
     pub fn memory(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
+        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..]) + size_of_val(&self.ids[..])
     }
 }

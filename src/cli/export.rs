@@ -15,7 +15,8 @@ pub(crate) struct Arguments {
     scene: PathBuf,
     #[command(flatten)]
     pick: Pick,
-    /// The file: .xml for Mitsuba 3, .pbrt for pbrt-v4. Its meshes and images go into the folder NAME-files beside it
+    /// The file: .xml for Mitsuba 3, .pbrt for pbrt-v4. Its meshes and images go into the folder NAME-mitsuba or
+    /// NAME-pbrt beside it
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Samples per pixel [128]

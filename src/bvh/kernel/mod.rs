@@ -20,7 +20,7 @@ mod traverse;
 
 pub(super) use pages::with_capacity;
 pub(super) use ray::KernelRay;
-pub(super) use stack::Stack;
+pub(super) use stack::{Entry, Stack};
 
 use super::node::{Node, TriangleLeaf, WIDTH};
 use super::triangles::TriangleHit;

@@ -50,13 +50,9 @@ impl KernelRay {
     /// t = n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64, if it is positive.
     #[inline]
     pub(in crate::bvh) fn plane_ahead(&self, leaf: &TriangleLeaf, lane: usize) -> Option<f64> {
-        let vertex = |i: usize| {
-            let [x, y, z] = &leaf.v[i];
-            DVec3::new(x[lane].into(), y[lane].into(), z[lane].into())
-        };
         let double = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
-        let a = vertex(0);
-        let n = (vertex(1) - a).cross(vertex(2) - a);
+        let [a, b, c] = leaf.triangle(lane).map(double);
+        let n = (b - a).cross(c - a);
         let (height, slope) = (n.dot(a - double(self.o)), n.dot(double(self.d)));
         (height * slope > 0.0).then(|| height / slope)
     }

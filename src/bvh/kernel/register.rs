@@ -7,6 +7,15 @@ macro_rules! lanes {
         #[derive(Clone, Copy)]
         struct Lanes(__m256);
 
+        /// Asks for the cache lines of what is at `at`, if anything is.
+        #[inline]
+        #[target_feature(enable = $features)]
+        fn prefetch<T>(at: *const T) {
+            for line in 0..size_of::<T>().div_ceil(64) {
+                _mm_prefetch::<_MM_HINT_T0>(at.cast::<i8>().wrapping_add(64 * line));
+            }
+        }
+
         impl Lanes {
             #[inline]
             #[target_feature(enable = $features)]

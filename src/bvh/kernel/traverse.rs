@@ -3,8 +3,8 @@
 /// `nearest` and `occluded` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
-        use super::{KernelRay, Stack};
-        use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
+        use super::{Entry, KernelRay, Stack};
+        use crate::bvh::node::{LEAF, NONE, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::TriangleHit;
 
         /// γ₂, γ₃ and γ₅ (`math::gamma`).
@@ -54,9 +54,12 @@ macro_rules! kernels {
         /// Woop, Benthin & Wald 2013, "Watertight Ray/Triangle Intersection": in the sheared space the ray is the
         /// third axis and vertices are points of the plane, the same for all triangles that share them. A rounded
         /// difference of products has the right sign unless it is 0; zeros are decided in f64.
+        ///
+        /// Of each use there is a copy, which is so called once and inlined: results and what the loop about it holds stay
+        /// in registers.
         #[inline]
         $(#[$isa])?
-        fn triangles(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, [Lanes; 4]) {
+        fn triangles<const NEAREST: bool>(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, [Lanes; 4]) {
             let [kx, ky, kz] = ray.axes;
             let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
             let [sx, sy, sz] = ray.shear;
@@ -140,10 +143,22 @@ macro_rules! kernels {
             (hits, Lanes::load(&exact))
         }
 
+        /// Asks for the memory of a child that will be visited, unless a hit comes first: in large trees most of the time is
+        /// spent waiting for it.
+        #[inline]
+        $(#[$isa])?
+        fn fetch(nodes: &[Node], leaves: &[TriangleLeaf], child: u32) {
+            if child & LEAF != 0 {
+                prefetch(leaves.as_ptr().wrapping_add((child & !LEAF) as usize));
+            } else {
+                prefetch(nodes.as_ptr().wrapping_add(child as usize));
+            }
+        }
+
         /// Nearest hit; see [`super::nearest`].
         $(#[$isa])?
         pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay, hit: &mut TriangleHit) -> bool {
-            let mut stack = Stack::new();
+            let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
             let mut child = 0;
@@ -151,7 +166,7 @@ macro_rules! kernels {
                 if child & LEAF != 0 {
                     // Keep the nearest triangle of the leaf.
                     let leaf = &leaves[(child & !LEAF) as usize];
-                    let (mut hits, [t, v, w, det_inv]) = triangles(leaf, ray, t_max);
+                    let (mut hits, [t, v, w, det_inv]) = triangles::<true>(leaf, ray, t_max);
                     if hits != 0 {
                         let [t, v, w, det_inv] = [t.to_array(), v.to_array(), w.to_array(), det_inv.to_array()];
                         while hits != 0 {
@@ -163,7 +178,7 @@ macro_rules! kernels {
                                     t: t[lane],
                                     u: v[lane] * det_inv[lane],
                                     v: w[lane] * det_inv[lane],
-                                    triangle: leaf.id[lane],
+                                    triangle: NONE,
                                     slot: (child & !LEAF) * WIDTH as u32 + lane as u32,
                                 };
                                 found = true;
@@ -179,34 +194,55 @@ macro_rules! kernels {
                         let mut take = || {
                             let lane = met.trailing_zeros() as usize & 7;
                             met &= met - 1;
-                            ((near[lane], node.child[lane]), met != 0)
+                            fetch(nodes, leaves, node.child[lane]);
+                            (Entry::new(near[lane], node.child[lane]), met != 0)
                         };
-                        let (first, more) = take();
+                        // Up to four are sorted by exchanges, which no branch has to predict.
+                        let (a, more) = take();
                         if !more {
-                            child = first.1;
+                            child = a.child();
                             continue;
                         }
-                        let (second, mut more) = take();
-                        let (nearer, farther) = if second.0 < first.0 { (second, first) } else { (first, second) };
+                        let (b, more) = take();
+                        let (a, b) = (a.min(b), a.max(b));
                         if !more {
-                            stack.push(farther);
-                            child = nearer.1;
+                            stack.push(&mut size, b);
+                            child = a.child();
                             continue;
                         }
-                        let from = stack.len();
-                        stack.push(farther);
-                        stack.push(nearer);
+                        let (c, more) = take();
+                        let (b, c) = (b.min(c), b.max(c));
+                        let (a, b) = (a.min(b), a.max(b));
+                        if !more {
+                            stack.push(&mut size, c);
+                            stack.push(&mut size, b);
+                            child = a.child();
+                            continue;
+                        }
+                        let (d, mut more) = take();
+                        let (c, d) = (c.min(d), c.max(d));
+                        let (b, c) = (b.min(c), b.max(c));
+                        let (a, b) = (a.min(b), a.max(b));
+                        let from = size;
+                        stack.push(&mut size, d);
+                        stack.push(&mut size, c);
+                        stack.push(&mut size, b);
+                        if !more {
+                            child = a.child();
+                            continue;
+                        }
+                        stack.push(&mut size, a);
                         while more {
                             let (next, any) = take();
-                            stack.insert(from, next);
+                            stack.insert(from, &mut size, next);
                             more = any;
                         }
                     }
                 }
                 child = loop {
-                    match stack.pop() {
+                    match stack.pop(&mut size) {
                         None => return found,
-                        Some((near, child)) if near <= t_max => break child,
+                        Some(next) if next.near() <= t_max => break next.child(),
                         Some(_) => {}
                     }
                 };
@@ -216,11 +252,11 @@ macro_rules! kernels {
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
         pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
-            let mut stack = Stack::new();
+            let (mut stack, mut size) = (Stack::new(), 0);
             let mut child = 0;
             loop {
                 if child & LEAF != 0 {
-                    if triangles(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
+                    if triangles::<false>(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
                         return true;
                     }
                 } else {
@@ -231,18 +267,19 @@ macro_rules! kernels {
                         loop {
                             let lane = met.trailing_zeros() as usize & 7;
                             met &= met - 1;
+                            fetch(nodes, leaves, node.child[lane]);
                             if met == 0 {
                                 child = node.child[lane];
                                 break;
                             }
-                            stack.push((0.0, node.child[lane]));
+                            stack.push(&mut size, Entry::new(0.0, node.child[lane]));
                         }
                         continue;
                     }
                 }
-                match stack.pop() {
+                match stack.pop(&mut size) {
                     None => return false,
-                    Some((_, next)) => child = next,
+                    Some(next) => child = next.child(),
                 }
             }
         }

@@ -26,7 +26,12 @@ pub(super) struct Beside<'a> {
 
 impl<'a> Beside<'a> {
     pub(super) fn new(scene: &'a Scene, path: &Path, target: Target) -> Self {
-        let name = format!("{}-files", path.file_stem().unwrap_or_default().to_string_lossy());
+        // A folder of its own for each target: their images differ.
+        let target_name = match target {
+            Target::Mitsuba => "mitsuba",
+            Target::Pbrt => "pbrt",
+        };
+        let name = format!("{}-{target_name}", path.file_stem().unwrap_or_default().to_string_lossy());
         let folder = path.with_file_name(&name);
         Self { scene, target, folder, name, meshes: HashMap::new(), pictures: Vec::new(), notes: Vec::new() }
     }

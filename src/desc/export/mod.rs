@@ -102,8 +102,8 @@ pub struct Written {
     pub notes: Vec<String>,
 }
 
-/// Writes `scene` as `view` has it to the file `path` and the folder `NAME-files` beside it. The scene file comes last, so
-/// that it never names what is not there.
+/// Writes `scene` as `view` has it to the file `path` and the folder `NAME-mitsuba` or `NAME-pbrt` beside it. The scene file
+/// comes last, so that it never names what is not there.
 pub fn export(scene: &Scene, view: &View, target: Target, path: &Path) -> Result<Written, ExportError> {
     let failed = |e: io::Error| ExportError::Output(path.into(), e);
     check_writable(path).map_err(failed)?;
