@@ -81,7 +81,7 @@ proptest! {
             let (c, e) = (p() * 10.0, p());
             Aabb { min: c - e, max: c + e }
         }).collect();
-        let bvh = BoxBvh::build(&boxes, Quality::Default);
+        let bvh = BoxBvh::build(boxes.clone(), Quality::Default);
         for _ in 0..50 {
             let target = boxes[(p().x * n as f32) as usize % n];
             let o = p() * 40.0 - 20.0;

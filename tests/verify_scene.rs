@@ -148,6 +148,7 @@ fn inverted_normals_are_told_and_survived() {
 fn broken_numbers_fail_and_odd_ones_are_told() {
     let mut scene = read(&tetrahedron(CLOSED, ""));
     let Shape::Mesh(mesh) = &mut scene.shapes[0] else { panic!("a mesh") };
+    let mesh = std::sync::Arc::make_mut(mesh);
     mesh.normals = vec![Vec3::Z, Vec3::NAN, Vec3::Z * 3.0, Vec3::NAN];
     scene.materials[0].model = desc::Model::Diffuse { reflectance: desc::ColorParam::constant([0.5, 1.2, 0.5]) };
     let report = verify(scene, &["data", "normals"]);

@@ -68,7 +68,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
     let white = Model::Diffuse { reflectance: ColorParam::constant([1.0; 3]) };
     let object = Object { closed: true, ..Object::new(0, 0) };
     let scene = Scene::compile(&desc::Scene {
-        shapes: vec![Shape::Mesh(mesh)],
+        shapes: vec![Shape::Mesh(mesh.into())],
         objects: vec![object],
         materials: vec![desc::Material::new("white", white)],
         ..Default::default()

@@ -10,18 +10,20 @@ use crate::math::Ray;
 #[derive(Debug)]
 pub struct BoxBvh {
     nodes: Vec<Node>,
-    leaves: Vec<Vec<u32>>,
+    /// Content of each leaf.
+    leaves: Vec<u32>,
     bounds: Aabb,
     isa: Isa,
 }
 
 impl BoxBvh {
     /// Builds over boxes, none of them empty.
-    pub fn build(boxes: &[Aabb], quality: Quality) -> Self {
+    pub fn build(boxes: Vec<Aabb>, quality: Quality) -> Self {
         // What is in a box costs more to ask than the box.
-        let tree = build(boxes, quality, 1);
         let bounds = boxes.iter().fold(Aabb::EMPTY, |a, b| a.union(*b));
-        Self { nodes: tree.nodes, leaves: tree.leaves, bounds, isa: Isa::in_use() }
+        let tree = build(boxes, quality, 1);
+        let leaves = tree.leaves().map(|ids| ids[0]).collect();
+        Self { nodes: tree.nodes, leaves, bounds, isa: Isa::in_use() }
     }
 
     /// Asks `hit(id, ray)` of the contents of every box that the ray may meet, near ones first. `hit` returns the
@@ -43,13 +45,11 @@ impl BoxBvh {
             }
             let child = next.child();
             if child & LEAF != 0 {
-                for &id in &self.leaves[(child & !LEAF) as usize] {
-                    if let Some(t) = hit(id, &ray) {
-                        found = true;
-                        ray.t_max = t;
-                        if t <= 0.0 {
-                            return true;
-                        }
+                if let Some(t) = hit(self.leaves[(child & !LEAF) as usize], &ray) {
+                    found = true;
+                    ray.t_max = t;
+                    if t <= 0.0 {
+                        return true;
                     }
                 }
                 continue;
@@ -79,6 +79,6 @@ impl BoxBvh {
 
     /// Bytes of nodes and leaves.
     pub fn memory(&self) -> usize {
-        size_of_val(&self.nodes[..]) + self.leaves.iter().map(|l| size_of_val(l) + size_of_val(&l[..])).sum::<usize>()
+        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..])
     }
 }

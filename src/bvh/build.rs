@@ -2,10 +2,12 @@
 
 use super::Aabb;
 use super::node::{LEAF, Node, STACK, WIDTH};
+use arrayvec::ArrayVec;
 use obvhs::aabb::Aabb as ObvhsAabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::bvh2::node::Bvh2Node;
+use obvhs::ploc::SortPrecision;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 
@@ -49,40 +51,62 @@ impl Quality {
             max_prims_per_leaf: 1,
             post_collapse_reinsertion_batch_ratio_multiplier: 0.0,
             pre_split: false,
+            // 21 bits an axis; the others take half as much memory again as all nodes of a level.
+            sort_precision: SortPrecision::U64,
             ..params
         }
     }
 }
 
-/// A wide tree: node 0 is the root; leaf `i` holds the primitives `leaves[i]`.
+/// A wide tree: node 0 is the root.
 #[derive(Debug, Default)]
 pub(super) struct WideTree {
     pub(super) nodes: Vec<Node>,
-    pub(super) leaves: Vec<Vec<u32>>,
+    primitives: Vec<u32>,
+    /// Where each leaf's primitives end.
+    ends: Vec<u32>,
 }
 
-struct Primitive(Aabb);
+impl WideTree {
+    /// The primitives of each leaf.
+    pub(super) fn leaves(&self) -> impl ExactSizeIterator<Item = &[u32]> {
+        let from = |i: usize| if i == 0 { 0 } else { self.ends[i - 1] as usize };
+        (0..self.ends.len()).map(move |i| &self.primitives[from(i)..self.ends[i] as usize])
+    }
+}
 
-impl Boundable for Primitive {
+impl Boundable for Aabb {
     fn aabb(&self) -> ObvhsAabb {
-        ObvhsAabb::new(self.0.min.into(), self.0.max.into())
+        ObvhsAabb::new(self.min.into(), self.max.into())
     }
 }
 
 /// Builds a wide tree over boxes, none of them empty, with at most `most` ≤ 8 of them in a leaf.
-pub(super) fn build(boxes: &[Aabb], quality: Quality, most: usize) -> WideTree {
+pub(super) fn build(boxes: Vec<Aabb>, quality: Quality, most: usize) -> WideTree {
     if boxes.is_empty() {
         return WideTree::default();
     }
-    let primitives: Vec<Primitive> = boxes.iter().map(|b| Primitive(*b)).collect();
     let params = quality.params();
     // Heaps of coincident boxes make trees deeper than obvhs, in debug builds, asserts.
-    let built = std::panic::catch_unwind(|| build_bvh2(&primitives, params, &mut Duration::default()));
-    let bvh2 = built.unwrap_or_else(|_| balanced(boxes));
+    let built = std::panic::catch_unwind(|| build_bvh2(&boxes, params, &mut Duration::default()));
+    let bvh2 = built.unwrap_or_else(|_| balanced(&boxes));
+    drop(boxes);
     match collapse(&bvh2, most) {
         (tree, depth) if depth * (WIDTH - 1) + 1 < STACK => tree,
-        _ => collapse(&balanced(boxes), most).0,
+        _ => collapse(&balanced(&boxes_of(&bvh2)), most).0,
     }
+}
+
+/// The boxes that a binary tree of one primitive a leaf was built over.
+fn boxes_of(bvh2: &Bvh2) -> Vec<Aabb> {
+    let mut boxes = vec![Aabb::EMPTY; bvh2.primitive_indices.len()];
+    for leaf in bvh2.nodes.iter().filter(|node| node.is_leaf()) {
+        let own = Aabb { min: leaf.aabb().min.into(), max: leaf.aabb().max.into() };
+        for &i in &bvh2.primitive_indices[leaf.first_index as usize..][..leaf.prim_count as usize] {
+            boxes[i as usize] = own;
+        }
+    }
+    boxes
 }
 
 /// Binary tree by median splits: worse to traverse, but never deeper than log₂ n, whatever the geometry.
@@ -110,13 +134,18 @@ fn balanced(boxes: &[Aabb]) -> Bvh2 {
     tree
 }
 
-/// What the dynamic program knows of a binary node: the least cost of its subtree as a forest of at most `i + 1`
-/// wide children, and how to split `i + 1` roots between its two children (0: keep it whole).
-#[derive(Clone)]
-struct Best {
-    cost: [f32; WIDTH - 1],
+/// What the dynamic program decides at a binary node: how to split `i + 1` roots between its two children (0: keep it
+/// whole), and whether it is a leaf.
+#[derive(Clone, Default)]
+struct Plan {
     split: [u8; WIDTH],
     leaf: bool,
+}
+
+/// What it knows of the node until its parent is decided: the least cost of its subtree as a forest of at most `i + 1` wide
+/// children, and how many primitives are in it.
+struct Known {
+    cost: [f32; WIDTH - 1],
     primitives: u32,
 }
 
@@ -125,7 +154,7 @@ struct Best {
 fn collapse(bvh2: &Bvh2, most: usize) -> (WideTree, usize) {
     let order = preorder(bvh2);
     let best = plan(bvh2, &order, most);
-    let mut tree = WideTree { nodes: vec![Node::EMPTY], leaves: Vec::new() };
+    let mut tree = WideTree { nodes: vec![Node::EMPTY], ..WideTree::default() };
     let mut depth = 0;
     let mut todo = vec![(0usize, 0u32, 1usize)];
     while let Some((wide, binary, level)) = todo.pop() {
@@ -144,8 +173,9 @@ fn collapse(bvh2: &Bvh2, most: usize) -> (WideTree, usize) {
                 tree.nodes[wide].planes[2 * axis + 1][lane] = node.aabb().max[axis];
             }
             tree.nodes[wide].child[lane] = if best[child as usize].leaf {
-                tree.leaves.push(primitives_of(bvh2, child));
-                (tree.leaves.len() - 1) as u32 | LEAF
+                put_primitives_of(bvh2, child, &mut tree.primitives);
+                tree.ends.push(tree.primitives.len() as u32);
+                (tree.ends.len() - 1) as u32 | LEAF
             } else {
                 let index = tree.nodes.len();
                 tree.nodes.push(Node::EMPTY);
@@ -171,21 +201,20 @@ fn preorder(bvh2: &Bvh2) -> Vec<u32> {
 }
 
 /// Fills the dynamic program from the leaves up.
-fn plan(bvh2: &Bvh2, preorder: &[u32], most: usize) -> Vec<Best> {
-    let unknown = Best { cost: [0.0; WIDTH - 1], split: [0; WIDTH], leaf: true, primitives: 0 };
-    let mut best = vec![unknown; bvh2.nodes.len()];
+fn plan(bvh2: &Bvh2, preorder: &[u32], most: usize) -> Vec<Plan> {
+    let mut plans = vec![Plan::default(); bvh2.nodes.len()];
+    // Backwards a node comes right behind its subtrees, the second child's last.
+    let mut known: Vec<Known> = Vec::new();
     for &i in preorder.iter().rev() {
         let node = &bvh2.nodes[i as usize];
         let area = node.aabb().half_area();
-        if node.is_leaf() {
-            let own = &mut best[i as usize];
-            own.cost = [area * LEAF_COST; WIDTH - 1];
-            own.primitives = node.prim_count;
+        let own = &mut plans[i as usize];
+        let (right, left) = if node.is_leaf() { (None, None) } else { (known.pop(), known.pop()) };
+        let (Some(left), Some(right)) = (left, right) else {
+            own.leaf = true;
+            known.push(Known { cost: [area * LEAF_COST; WIDTH - 1], primitives: node.prim_count });
             continue;
-        }
-        let (left, right) = (&best[node.first_index as usize], &best[node.first_index as usize + 1]);
-        let mut own = best[i as usize].clone();
-        own.primitives = left.primitives + right.primitives;
+        };
         // Distribute j roots over the two children, for every j.
         let mut distributed = [f32::INFINITY; WIDTH + 1];
         for j in 2..=WIDTH {
@@ -199,24 +228,26 @@ fn plan(bvh2: &Bvh2, preorder: &[u32], most: usize) -> Vec<Best> {
             }
         }
         // As one root: a leaf, or a node with eight roots below it.
-        let as_leaf = if own.primitives as usize <= most { area * LEAF_COST } else { f32::INFINITY };
+        let primitives = left.primitives + right.primitives;
+        let as_leaf = if primitives as usize <= most { area * LEAF_COST } else { f32::INFINITY };
         let as_node = distributed[WIDTH] + area;
-        own.leaf = own.primitives as usize <= most && (as_leaf <= as_node || as_node.is_nan());
-        own.cost[0] = as_leaf.min(as_node);
+        own.leaf = primitives as usize <= most && (as_leaf <= as_node || as_node.is_nan());
+        let mut cost = [0.0; WIDTH - 1];
+        cost[0] = as_leaf.min(as_node);
         // As up to j roots.
         for j in 2..WIDTH {
-            own.cost[j - 1] = own.cost[j - 2].min(distributed[j]);
-            if distributed[j] >= own.cost[j - 2] {
+            cost[j - 1] = cost[j - 2].min(distributed[j]);
+            if distributed[j] >= cost[j - 2] {
                 own.split[j - 1] = 0;
             }
         }
-        best[i as usize] = own;
+        known.push(Known { cost, primitives });
     }
-    best
+    plans
 }
 
 /// The at most `j` roots that stand for the two children of `binary`.
-fn roots_of_children(bvh2: &Bvh2, best: &[Best], binary: u32, j: usize, out: &mut Vec<u32>) {
+fn roots_of_children(bvh2: &Bvh2, best: &[Plan], binary: u32, j: usize, out: &mut Vec<u32>) {
     let k = best[binary as usize].split[j - 1].max(1) as usize;
     let first = bvh2.nodes[binary as usize].first_index;
     roots(bvh2, best, first, k, out);
@@ -224,7 +255,7 @@ fn roots_of_children(bvh2: &Bvh2, best: &[Best], binary: u32, j: usize, out: &mu
 }
 
 /// The at most `j` < 8 roots that stand for the subtree of `binary`.
-fn roots(bvh2: &Bvh2, best: &[Best], binary: u32, mut j: usize, out: &mut Vec<u32>) {
+fn roots(bvh2: &Bvh2, best: &[Plan], binary: u32, mut j: usize, out: &mut Vec<u32>) {
     if bvh2.nodes[binary as usize].is_leaf() {
         return out.push(binary);
     }
@@ -234,19 +265,19 @@ fn roots(bvh2: &Bvh2, best: &[Best], binary: u32, mut j: usize, out: &mut Vec<u3
     if j == 1 { out.push(binary) } else { roots_of_children(bvh2, best, binary, j, out) }
 }
 
-fn primitives_of(bvh2: &Bvh2, root: u32) -> Vec<u32> {
-    let mut found = Vec::with_capacity(WIDTH);
-    let mut todo = vec![root];
+/// Appends what is below `root`.
+fn put_primitives_of(bvh2: &Bvh2, root: u32, out: &mut Vec<u32>) {
+    let mut todo = ArrayVec::<u32, { WIDTH + 1 }>::new();
+    todo.push(root);
     while let Some(i) = todo.pop() {
         let node = &bvh2.nodes[i as usize];
         if node.is_leaf() {
             let range = node.first_index as usize..(node.first_index + node.prim_count) as usize;
-            found.extend(&bvh2.primitive_indices[range]);
+            out.extend(&bvh2.primitive_indices[range]);
         } else {
             todo.extend([node.first_index, node.first_index + 1]);
         }
     }
-    found
 }
 
 #[cfg(test)]
@@ -266,6 +297,7 @@ mod tests {
 
     fn check(tree: &WideTree, boxes: &[Aabb]) {
         let mut seen = vec![0; boxes.len()];
+        let leaves: Vec<&[u32]> = tree.leaves().collect();
         let mut todo = vec![0u32];
         while let Some(n) = todo.pop() {
             let node = &tree.nodes[n as usize];
@@ -273,7 +305,7 @@ mod tests {
                 match node.child[lane] {
                     super::super::node::NONE => {}
                     leaf if leaf & LEAF != 0 => {
-                        let ids = &tree.leaves[(leaf & !LEAF) as usize];
+                        let ids = leaves[(leaf & !LEAF) as usize];
                         assert!(!ids.is_empty() && ids.len() <= WIDTH);
                         for &i in ids {
                             seen[i as usize] += 1;
@@ -294,13 +326,20 @@ mod tests {
     fn every_primitive_is_in_one_leaf_inside_its_box() {
         for n in [1, 2, 7, 8, 9, 63, 1000] {
             for (quality, _) in Quality::ALL {
-                check(&build(&line(n), quality, WIDTH), &line(n));
-                let single = build(&line(n), quality, 1);
-                assert!(single.leaves.iter().all(|ids| ids.len() == 1));
+                check(&build(line(n), quality, WIDTH), &line(n));
+                let single = build(line(n), quality, 1);
+                assert!(single.leaves().all(|ids| ids.len() == 1));
                 check(&single, &line(n));
             }
             check(&collapse(&balanced(&line(n)), WIDTH).0, &line(n));
         }
+    }
+
+    #[test]
+    fn boxes_are_found_again_in_the_tree() {
+        let boxes = line(99);
+        let bvh2 = build_bvh2(&boxes, Quality::Default.params(), &mut Duration::default());
+        assert_eq!(boxes_of(&bvh2), boxes);
     }
 
     #[test]
@@ -312,8 +351,8 @@ mod tests {
     #[test]
     fn coincident_and_enormous_boxes_survive() {
         let same = vec![Aabb { min: Vec3::ONE, max: Vec3::ONE }; 300];
-        check(&build(&same, Quality::Default, WIDTH), &same);
+        check(&build(same.clone(), Quality::Default, WIDTH), &same);
         let huge = vec![Aabb { min: Vec3::splat(-3e38), max: Vec3::splat(3e38) }; 20];
-        check(&build(&huge, Quality::Default, WIDTH), &huge);
+        check(&build(huge.clone(), Quality::Default, WIDTH), &huge);
     }
 }

@@ -52,11 +52,10 @@ impl TriangleBvh {
         } else {
             (boxes, kept)
         };
-        let tree = build(&boxes, quality, WIDTH);
-        drop(boxes);
-        let mut leaves = kernel::with_capacity(tree.leaves.len());
-        let mut ids = kernel::with_capacity(tree.leaves.len());
-        for parts in &tree.leaves {
+        let tree = build(boxes, quality, WIDTH);
+        let mut leaves = kernel::with_capacity(tree.leaves().len());
+        let mut ids = kernel::with_capacity(tree.leaves().len());
+        for parts in tree.leaves() {
             // Parts of one triangle may have come together again.
             let mut own: ArrayVec<u32, WIDTH> = ArrayVec::new();
             for id in parts.iter().map(|&i| owners[i as usize]) {

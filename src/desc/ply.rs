@@ -29,7 +29,7 @@ pub fn parse(bytes: &[u8], path: &Path) -> Result<Scene, Error> {
     let material = Material::new("default", Model::Diffuse { reflectance: ColorParam { factor, ..reflectance } });
     let object = Object { name: name.clone(), ..Object::new(0, 0) };
     let mut scene = Scene { name, source: Some(path.into()), ..Scene::default() };
-    scene.shapes.push(Shape::Mesh(mesh));
+    scene.shapes.push(Shape::Mesh(mesh.into()));
     scene.objects.push(object);
     scene.materials.push(material);
     if degenerate > 0 {

@@ -2,6 +2,7 @@
 
 use super::Emission;
 use glam::{Mat4, Vec2, Vec3, Vec4};
+use std::sync::Arc;
 
 /// Geometry in object space. Normals point outwards (sphere, cylinder), along +z (disk), or to the side from which
 /// a triangle's vertices run counter-clockwise.
@@ -24,8 +25,8 @@ pub enum Shape {
         /// Height \[m\].
         height: f32,
     },
-    /// Triangles.
-    Mesh(Mesh),
+    /// Triangles; who places them unmoved need not copy them.
+    Mesh(Arc<Mesh>),
 }
 
 /// Indexed triangles. Each attribute list is empty or as long as `positions`; readers guarantee that indices are in

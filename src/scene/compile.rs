@@ -9,7 +9,9 @@ use crate::material::Material;
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric};
 use crate::texture::Textures;
+use glam::Affine3A;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A mesh that stands in several places is kept once, unless copies of it would be this few triangles: then one flat
 /// tree is faster.
@@ -186,11 +188,15 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn to_world(mesh: &Mesh, transform: &Transform) -> Mesh {
+/// The mesh in the world; where it is there already, itself.
+fn to_world(shared: &Arc<Mesh>, transform: &Transform) -> Arc<Mesh> {
     let m = &transform.to_world;
-    let mut mesh = mesh.clone();
+    if *m == Affine3A::IDENTITY && shared.normals.is_empty() && shared.tangents.is_empty() {
+        return shared.clone();
+    }
+    let mut mesh = Mesh::clone(shared);
     mesh.positions.iter_mut().for_each(|p| *p = m.transform_point3(*p));
     mesh.normals.iter_mut().for_each(|n| *n = transform.normal_to_world(*n).normalize_or_zero());
     mesh.tangents.iter_mut().for_each(|t| *t = m.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w));
-    mesh
+    Arc::new(mesh)
 }

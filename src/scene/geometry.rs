@@ -7,6 +7,7 @@ use crate::shape::{
     PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, triangle_surface, with_attributes,
 };
 use glam::{Mat3A, Vec3, Vec4};
+use std::sync::Arc;
 
 /// Whose a surface is.
 #[derive(Clone, Copy, Debug)]
@@ -21,7 +22,7 @@ pub struct Owner {
 #[derive(Debug)]
 pub struct Part {
     /// World-space geometry.
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// Whose it is.
     pub owner: Owner,
     /// The front is the side from which the vertices run clockwise.
@@ -41,7 +42,7 @@ struct Origin {
 #[derive(Debug)]
 pub struct Prototype {
     /// Object-space geometry.
-    pub mesh: Mesh,
+    pub mesh: Arc<Mesh>,
     /// Its triangles.
     pub bvh: TriangleBvh,
 }
@@ -96,17 +97,26 @@ impl Geometry {
         quality: Quality,
     ) -> Self {
         // All parts in one tree.
-        let (mut positions, mut indices, mut origin) = (Vec::new(), Vec::new(), Vec::new());
+        let world = match parts.as_slice() {
+            [part] => TriangleBvh::build(&part.mesh.positions, &part.mesh.indices, quality),
+            _ => {
+                let (mut positions, mut indices) = (Vec::new(), Vec::new());
+                for part in &parts {
+                    let base = positions.len() as u32;
+                    positions.extend(&part.mesh.positions);
+                    indices.extend(part.mesh.indices.iter().map(|t| t.map(|i| i + base)));
+                }
+                TriangleBvh::build(&positions, &indices, quality)
+            }
+        };
+        // After the tree, whose construction takes the most memory.
+        let mut origin = Vec::with_capacity(parts.iter().map(|part| part.mesh.indices.len()).sum());
         for (p, part) in parts.iter().enumerate() {
-            let base = positions.len() as u32;
-            positions.extend(&part.mesh.positions);
-            indices.extend(part.mesh.indices.iter().map(|t| t.map(|i| i + base)));
             origin.extend(part.mesh.indices.iter().enumerate().map(|(triangle, index)| {
                 let front = triangle_normal(index.map(|i| part.mesh.positions[i as usize])).unwrap_or(Vec3::Z);
                 Origin { part: p as u32, triangle: triangle as u32, ng: if part.flip { -front } else { front } }
             }));
         }
-        let world = TriangleBvh::build(&positions, &indices, quality);
 
         // Instances and quadrics in another.
         let boxes = instances.iter().map(|i| i.bounds(&prototypes[i.prototype as usize]));
@@ -114,7 +124,7 @@ impl Geometry {
             let (min, max) = q.bounds();
             Aabb { min, max }
         }));
-        let objects = BoxBvh::build(&boxes.collect::<Vec<_>>(), quality);
+        let objects = BoxBvh::build(boxes.collect(), quality);
         Self { parts, origin, world, prototypes, instances, quadrics, objects }
     }
 
@@ -225,7 +235,7 @@ impl Geometry {
 
     /// Bytes of meshes and of hierarchies.
     pub fn memory(&self) -> [usize; 2] {
-        let meshes = self.parts.iter().map(|p| &p.mesh).chain(self.prototypes.iter().map(|p| &p.mesh));
+        let meshes = self.parts.iter().map(|p| &*p.mesh).chain(self.prototypes.iter().map(|p| &*p.mesh));
         let trees = self.prototypes.iter().map(|p| p.bvh.memory()).sum::<usize>();
         [
             meshes.map(mesh_bytes).sum::<usize>() + size_of_val(&self.origin[..]),

@@ -177,7 +177,7 @@ fn quads_by_edges() {
         "[material.a]\ntype = 'absorb'\n[[shape]]\ntype = 'quad'\ncorner = [1, 0, 0]\nedge_u = [0, 2, 0]\nedge_v = [0, 0, 3]\nmaterial = 'a'",
     );
     let Shape::Mesh(m) = &s.shapes[0] else { panic!() };
-    assert_eq!(m, &primitives::quad(Vec3::X, Vec3::Y * 2.0, Vec3::Z * 3.0));
+    assert_eq!(**m, primitives::quad(Vec3::X, Vec3::Y * 2.0, Vec3::Z * 3.0));
 }
 
 #[test]

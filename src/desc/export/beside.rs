@@ -58,7 +58,7 @@ impl<'a> Beside<'a> {
             return Ok(name.clone());
         }
         let mesh = match &self.scene.shapes[variant.shape] {
-            Shape::Mesh(mesh) => Cow::Borrowed(mesh),
+            Shape::Mesh(mesh) => Cow::Borrowed(&**mesh),
             shape => Cow::Owned(tessellate::mesh(shape)),
         };
         let bytes = mesh::ply(&mesh, &variant);

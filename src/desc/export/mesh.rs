@@ -136,7 +136,7 @@ mod tests {
     fn read(mesh: &Mesh, variant: &Variant) -> Mesh {
         let mut scene = reader::parse(&ply(mesh, variant), Path::new("a.ply")).unwrap();
         let Shape::Mesh(mesh) = scene.shapes.remove(0) else { unreachable!() };
-        mesh
+        std::sync::Arc::unwrap_or_clone(mesh)
     }
 
     #[test]

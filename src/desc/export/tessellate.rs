@@ -20,7 +20,7 @@ pub(super) fn mesh(shape: &Shape) -> Mesh {
             (Vec3::new(radius * c, radius * s, height * (1.0 - v)), Vec3::new(c, s, 0.0))
         }),
         Shape::Disk { radius } => disk(radius),
-        Shape::Mesh(ref mesh) => mesh.clone(),
+        Shape::Mesh(ref mesh) => Mesh::clone(mesh),
     }
 }
 

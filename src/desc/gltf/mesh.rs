@@ -167,7 +167,7 @@ impl Reader<'_> {
                 self.notes.at(place, note);
             }
         }
-        self.scene.shapes.push(Shape::Mesh(mesh));
+        self.scene.shapes.push(Shape::Mesh(mesh.into()));
         Ok(Some(self.scene.shapes.len() - 1))
     }
 }

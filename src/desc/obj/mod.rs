@@ -235,7 +235,7 @@ impl<'a> Reader<'a> {
                 self.scene.materials.len() - 1
             }),
         };
-        self.scene.shapes.push(Shape::Mesh(mesh));
+        self.scene.shapes.push(Shape::Mesh(mesh.into()));
         self.scene
             .objects
             .push(Object { name: self.name.clone(), ..Object::new(self.scene.shapes.len() - 1, material) });

@@ -142,16 +142,16 @@ impl ShapeKind {
                 let direction = unit(&At { at: to.clone(), value: axis })?;
                 (Shape::Cylinder { radius: s.radius.0, height }, along(s.from, direction))
             }
-            Self::QuadShape(s) => (Shape::Mesh(b.checked(name, at, s.mesh(at)?)?), Mat4::IDENTITY),
+            Self::QuadShape(s) => (Shape::Mesh(b.checked(name, at, s.mesh(at)?)?.into()), Mat4::IDENTITY),
             Self::BoxShape(s) => {
                 if !s.min.value.cmplt(s.max).all() {
                     return Err(Fault::new(&s.min.at, "`min` is not below `max` in every coordinate"));
                 }
-                (Shape::Mesh(b.checked(name, at, primitives::cuboid(s.min.value, s.max))?), Mat4::IDENTITY)
+                (Shape::Mesh(b.checked(name, at, primitives::cuboid(s.min.value, s.max))?.into()), Mat4::IDENTITY)
             }
             Self::MeshShape(s) => {
                 let at = s.indices.as_ref().map_or(&s.positions.at, |i| &i.at);
-                (Shape::Mesh(b.checked(name, at, s.mesh()?)?), Mat4::IDENTITY)
+                (Shape::Mesh(b.checked(name, at, s.mesh()?)?.into()), Mat4::IDENTITY)
             }
             Self::FileShape(_) => return Ok(None),
         };

@@ -207,7 +207,7 @@ impl Surface {
         let indices = (0..self.triangles.len() as u32).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
         let object = Object { closed: true, ..Object::new(0, 0) };
         let alone = desc::Scene {
-            shapes: vec![Shape::Mesh(desc::Mesh { positions, indices, ..desc::Mesh::default() })],
+            shapes: vec![Shape::Mesh(desc::Mesh { positions, indices, ..desc::Mesh::default() }.into())],
             objects: vec![object],
             materials: vec![desc::Material::new("", Model::Absorb)],
             ..desc::Scene::default()

@@ -1,7 +1,7 @@
 //! Places on a material that show its extremes.
 
 use crate::desc::{
-    ColorParam, Fresnel, Material, Mesh, Model, Pixels, Roughness, ScalarParam, Scene, Shape, Texture, TextureRef,
+    ColorParam, Fresnel, Material, Model, Pixels, Roughness, ScalarParam, Scene, Shape, Texture, TextureRef,
 };
 use glam::{Vec2, Vec4};
 
@@ -163,7 +163,7 @@ fn sum(rgba: [f32; 4], channel: Option<usize>) -> f32 {
 fn colors(scene: &Scene, material: usize) -> Vec<Place> {
     let worn = scene.objects.iter().filter(|o| o.material == material);
     let meshes = worn.filter_map(|o| match scene.shapes.get(o.shape) {
-        Some(Shape::Mesh(Mesh { colors, .. })) => Some(colors),
+        Some(Shape::Mesh(mesh)) => Some(&mesh.colors),
         _ => None,
     });
     let all: Vec<Vec4> = meshes.flatten().copied().filter(|c| c.is_finite()).collect();

@@ -2,6 +2,7 @@
 
 use crate::desc::{ColorParam, Emission, Environment, Fresnel, Interior, Material, Model, Scene, Shape, framing};
 use glam::Mat3;
+use std::sync::Arc;
 
 /// The same material with everything that could be coloured made white, so that it scatters all that it receives:
 /// reflectances, base colours and tints 1, interiors clear, mixtures filled up to 1. Roughness, metalness, indices and coverage stay as
@@ -83,6 +84,7 @@ pub(super) fn furnace(scene: &Scene, dress: Dress) -> Scene {
     }
     for shape in &mut scene.shapes {
         if let (Dress::Flat, Shape::Mesh(mesh)) = (dress, shape) {
+            let mesh = Arc::make_mut(mesh);
             mesh.normals.clear();
             mesh.tangents.clear();
         }
