@@ -57,10 +57,11 @@ class Radianza:
         command = [args.radianza, "render", scene.ours, "-o", out, "--spp", args.spp, "--size", scene.size, "--seed", seed]
         command += ["--filter", "box", "--layers", "beauty", *self.options, *replicate, *scene.depth(0)]
         text = run(command).stderr
-        speed = re.search(r"([0-9.]+) Msamples/s", text)
-        if not speed:
+        # Before the last line stand how far it was and how fast so far.
+        speeds = re.findall(r"([0-9.]+) Msamples/s", text)
+        if not speeds:
             sys.exit(f"radianza did not say how fast it was:\n{text}")
-        return scene.samples(args.spp) / 1e6 / float(speed[1])
+        return scene.samples(args.spp) / 1e6 / float(speeds[-1])
 
 
 class Worker:

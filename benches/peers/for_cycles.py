@@ -118,8 +118,12 @@ def load(xml, max_depth):
         if kind == "ply":
             bpy.ops.wm.ply_import(filepath=str(xml.parent / child(shape, "filename").get("value")), forward_axis="Y", up_axis="Z")
         elif kind == "sphere":
-            bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3 if shape.find("emitter") is not None else 7, radius=value(shape, "radius", 1.0))
+            # Lamps may be coarse, if they are as large; what is looked at and through may not.
+            lamp, radius = shape.find("emitter") is not None, value(shape, "radius", 1.0)
+            bpy.ops.mesh.primitive_ico_sphere_add(subdivisions=3 if lamp else 7, radius=radius)
             bpy.ops.object.shade_smooth()
+            area = sum(face.area for face in bpy.context.object.data.polygons)
+            bpy.context.object.data.transform(Matrix.Scale(math.sqrt(4 * math.pi * radius**2 / area), 4))
         elif kind == "disk":
             bpy.ops.mesh.primitive_circle_add(vertices=256, radius=value(shape, "radius", 1.0), fill_type="NGON")
         elif kind == "cylinder":
@@ -201,7 +205,8 @@ def load(xml, max_depth):
     c.light_sampling_threshold = 0.0
     c.pixel_filter_type = "BOX"
     c.filter_width = 1.0
-    bounces = 1024 if max_depth is None else max_depth
+    # Light that is sampled at the last bounce counts as none there.
+    bounces = 1024 if max_depth is None else max_depth - 1
     for kind in ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max"):
         setattr(c, f"{kind}_bounces", bounces)
     return bpy
