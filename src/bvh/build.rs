@@ -11,21 +11,20 @@ use obvhs::ploc::SortPrecision;
 use obvhs::{Boundable, BvhBuildParams};
 use std::time::Duration;
 
-/// Cost of visiting a leaf of up to eight primitives, relative to visiting a node. The optimum is flat; on the Cornell
-/// box 1.5 is 8 % faster than 0.7 and than 3.
+/// Cost of visiting a leaf of up to eight primitives, relative to visiting a node. The optimum is flat from 0.7 to 3.
 const LEAF_COST: f32 = 1.5;
 
 /// How long a hierarchy may take to build, for how fast it is traced.
 ///
-/// `cargo bench --bench rays`, in units of [`Default`](Self::Default): seconds of building a million triangles of rolling hills (0.88 s
+/// `cargo bench --bench rays`, in units of [`Default`](Self::Default): seconds of building a million triangles of rolling hills (1.07 s
 /// on two cores of a Xeon), and geometric means of the rays that a core traces in a second, of camera rays, two bounces and
 /// shadows:
 ///
 /// | | seconds | hills | 10,000 spheres | hall with slanting columns |
 /// | --- | --- | --- | --- | --- |
-/// | `Preview` | 0.8 | 0.98 | 0.97 | 0.98 |
+/// | `Preview` | 0.6 | 0.98 | 0.93 | 0.95 |
 /// | `Default` | 1 | 1 | 1 | 1 |
-/// | `Best` | 2.8 | 1.07 | 1.02 | 1.14 |
+/// | `Best` | 2.9 | 1.07 | 1.05 | 1.12 |
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Quality {
     /// Clustered, hardly improved.
