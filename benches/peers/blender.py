@@ -19,6 +19,8 @@ import subprocess
 import sys
 from pathlib import Path
 
+import for_cycles
+
 ROOT = Path(__file__).resolve().parents[2]
 OUT = ROOT / "target" / "peers" / "cycles"
 RADIANZA = ROOT / "target" / "release" / "radianza"
@@ -104,22 +106,7 @@ def import_and_frame(bpy, source, view, args):
     scene.collection.objects.link(eye)
     scene.camera = eye
 
-    # Blender's map has +x in its middle, glTF's viewers -z, which is Blender's +y.
-    world = bpy.data.worlds.new("world")
-    scene.world = world
-    world.use_nodes = True
-    nodes, links = world.node_tree.nodes, world.node_tree.links
-    nodes.clear()
-    where, turn = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping")
-    image, light = nodes.new("ShaderNodeTexEnvironment"), nodes.new("ShaderNodeBackground")
-    output = nodes.new("ShaderNodeOutputWorld")
-    turn.inputs["Rotation"].default_value[2] = -math.pi / 2
-    image.image = bpy.data.images.load(str(args.env.resolve()))
-    image.image.colorspace_settings.name = "Linear Rec.709"
-    links.new(where.outputs["Generated"], turn.inputs["Vector"])
-    links.new(turn.outputs["Vector"], image.inputs["Vector"])
-    links.new(image.outputs["Color"], light.inputs["Color"])
-    links.new(light.outputs["Background"], output.inputs["Surface"])
+    for_cycles.surround(bpy, scene, args.env)
     return [(v.x, v.z, -v.y) for v in (position, center)]
 
 

@@ -48,14 +48,14 @@ def scene_file(name):
 
 
 class Radianza:
-    def __init__(self, sampler, replicate=None):
+    def __init__(self, sampler, one_replicate=False):
         self.options = ["--sampler", sampler]
-        self.replicate = replicate
+        self.one_replicate = one_replicate
 
     def render(self, scene, args, seed, out):
-        replicate = ["--replicate", args.spp] if self.replicate == "one" else []
+        replicate = ["--replicate", args.spp] if self.one_replicate else []
         command = [args.radianza, "render", scene.ours, "-o", out, "--spp", args.spp, "--size", scene.size, "--seed", seed]
-        command += ["--filter", "box", "--layers", "beauty", *self.options, *replicate, *scene.depth(0)]
+        command += ["--filter", "box", "--layers", "beauty", *self.options, *replicate, *scene.depth()]
         text = run(command).stderr
         # Before the last line stand how far it was and how fast so far.
         speeds = re.findall(r"([0-9.]+) Msamples/s", text)
@@ -104,14 +104,14 @@ class Scene:
         self.pixels, self.size = width * height, f"{width}x{height}"
         self.xml = OUT / "scenes" / f"{name}.xml"
         for suffix in (".xml", ".pbrt"):
-            options = ["--size", self.size, "--spp", args.spp, "--filter", "box", *self.depth(0)]
+            options = ["--size", self.size, "--spp", args.spp, "--filter", "box", *self.depth()]
             run([args.radianza, "export", self.ours, "-o", self.xml.with_suffix(suffix), *options])
 
     def samples(self, spp):
         return self.pixels * spp
 
-    def depth(self, more):
-        return ["--max-depth", MAX_DEPTH[self.name] + more] if self.name in MAX_DEPTH else []
+    def depth(self):
+        return ["--max-depth", MAX_DEPTH[self.name]] if self.name in MAX_DEPTH else []
 
 
 def mitsuba(what):
@@ -158,7 +158,7 @@ def contenders(args):
     have = lambda module: importlib.util.find_spec(module) is not None
     all_of_them = {
         "Radianza, sobol": Radianza("sobol"),
-        "Radianza, sobol in one replicate": Radianza("sobol", "one"),
+        "Radianza, sobol in one replicate": Radianza("sobol", one_replicate=True),
         "Radianza, independent": Radianza("independent"),
         "Mitsuba llvm_ad_rgb, multijitter": Worker("mitsuba", "llvm_ad_rgb", "multijitter"),
         "Mitsuba llvm_ad_rgb, independent": Worker("mitsuba", "llvm_ad_rgb", "independent"),

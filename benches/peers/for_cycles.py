@@ -166,27 +166,15 @@ def load(xml, max_depth):
     scene.collection.objects.link(eye)
     scene.camera = eye
 
-    world = bpy.data.worlds.new("world")
-    scene.world = world
-    world.use_nodes = True
-    nodes, links = world.node_tree.nodes, world.node_tree.links
-    nodes.clear()
-    light, output = nodes.new("ShaderNodeBackground"), nodes.new("ShaderNodeOutputWorld")
-    light.inputs["Color"].default_value = (0, 0, 0, 1)
-    links.new(light.outputs["Background"], output.inputs["Surface"])
+    radiance, image = (0, 0, 0, 1), None
     for emitter in root.findall("emitter"):
         if emitter.get("type") == "constant":
-            light.inputs["Color"].default_value = rgb(emitter, "radiance", 1.0)
+            radiance = rgb(emitter, "radiance", 1.0)
         elif emitter.get("type") == "envmap":
-            where, turn, image = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping"), nodes.new("ShaderNodeTexEnvironment")
-            turn.inputs["Rotation"].default_value[2] = -math.pi / 2
-            image.image = bpy.data.images.load(str((xml.parent / child(emitter, "filename").get("value")).resolve()))
-            image.image.colorspace_settings.name = "Linear Rec.709"
-            links.new(where.outputs["Generated"], turn.inputs["Vector"])
-            links.new(turn.outputs["Vector"], image.inputs["Vector"])
-            links.new(image.outputs["Color"], light.inputs["Color"])
+            image = xml.parent / child(emitter, "filename").get("value")
         else:
             raise SystemExit(f"{xml}: no equal of emitter `{emitter.get('type')}`")
+    surround(bpy, scene, image, radiance)
 
     film = sensor.find("film")
     render, c = scene.render, scene.cycles
@@ -210,3 +198,25 @@ def load(xml, max_depth):
     for kind in ("max", "diffuse", "glossy", "transmission", "volume", "transparent_max"):
         setattr(c, f"{kind}_bounces", bounces)
     return bpy
+
+
+def surround(bpy, scene, image, radiance=(0, 0, 0, 1)):
+    """The environment: an equirectangular image whose middle is glTF's -z, or the same radiance from everywhere."""
+    world = bpy.data.worlds.new("world")
+    scene.world = world
+    world.use_nodes = True
+    nodes, links = world.node_tree.nodes, world.node_tree.links
+    nodes.clear()
+    light, output = nodes.new("ShaderNodeBackground"), nodes.new("ShaderNodeOutputWorld")
+    light.inputs["Color"].default_value = radiance
+    links.new(light.outputs["Background"], output.inputs["Surface"])
+    if image is None:
+        return
+    where, turn, texture = nodes.new("ShaderNodeTexCoord"), nodes.new("ShaderNodeMapping"), nodes.new("ShaderNodeTexEnvironment")
+    # Blender's map has +x in its middle, glTF's viewers -z, which is Blender's +y.
+    turn.inputs["Rotation"].default_value[2] = -math.pi / 2
+    texture.image = bpy.data.images.load(str(image.resolve()))
+    texture.image.colorspace_settings.name = "Linear Rec.709"
+    links.new(where.outputs["Generated"], turn.inputs["Vector"])
+    links.new(turn.outputs["Vector"], texture.inputs["Vector"])
+    links.new(texture.outputs["Color"], light.inputs["Color"])
