@@ -12,7 +12,7 @@ fn cornell(c: &mut Criterion) {
     let scene = desc::load(&path).and_then(|desc| Scene::compile(&desc)).unwrap_or_else(|e| panic!("{e}"));
     let mut group = c.benchmark_group("Cornell box");
     group.sample_size(10);
-    for sampler in [SamplerKind::Independent, SamplerKind::Sobol] {
+    for sampler in [SamplerKind::Independent, SamplerKind::Sobol, SamplerKind::Lattice] {
         let settings = Settings {
             size: [256, 256],
             crop: [0, 0, 256, 256],

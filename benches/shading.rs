@@ -31,7 +31,7 @@ fn lobes(c: &mut Criterion) {
 fn samplers(c: &mut Criterion) {
     let mut group = c.benchmark_group("samplers");
     group.throughput(Throughput::Elements(1));
-    for kind in [Kind::Independent, Kind::Sobol] {
+    for kind in [Kind::Independent, Kind::Sobol, Kind::Lattice] {
         group.bench_function(format!("{kind:?}/2d"), |b| {
             let mut index = 0;
             let mut sampler = Sampler::new(kind, 1, [3, 4], index, 16);

@@ -35,7 +35,7 @@
 //! | --- | --- | --- |
 //! | 0 | [`math`] | frames, rays and their robust offsets, small solvers |
 //! | 1 | [`spectrum`] | four lanes of radiance: linear RGB today |
-//! | 1 | [`sampler`] | `u(seed, pixel, index, dimension)`: independent and Owen-scrambled Sobol |
+//! | 1 | [`sampler`] | `u(seed, pixel, index, dimension)`: independent, Owen-scrambled Sobol, shifted lattices |
 //! | 1 | [`warp`] | square to disk, hemisphere, cone, triangle, table; each with pdf and inverse |
 //! | 1 | [`stats`] | moments, standard errors, z, χ², Šidák |
 //! | 2 | [`bsdf`] | lobes: `sample`, `eval`, `pdf` |

@@ -162,7 +162,7 @@ fn header() -> Header {
         replicate: 8,
         integrator: Integrator::Path,
         strategy: Strategy::Mis,
-        sampler: SamplerKind::Sobol,
+        sampler: SamplerKind::Lattice,
         seed: u64::MAX,
         max_depth: Some(8),
         filter: Filter::BlackmanHarris,

@@ -90,7 +90,7 @@ fn picture(bytes: &[u8], path: &Path, variant: Option<&str>) -> Estimated {
         replicate: 4,
         integrator: Integrator::Path,
         strategy: Strategy::Mis,
-        sampler: SamplerKind::Sobol,
+        sampler: SamplerKind::Lattice,
         seed: 7,
         max_depth: None,
         filter: Filter::BlackmanHarris,

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 use radianza::sampler::{Kind, Sampler};
 
-const KINDS: [Kind; 2] = [Kind::Independent, Kind::Sobol];
+const KINDS: [Kind; 3] = [Kind::Independent, Kind::Sobol, Kind::Lattice];
 
 /// Sizes of replicates that take both ways of computing a Sobol point.
 const REPLICATES: [u32; 2] = [64, 1024];

@@ -54,7 +54,7 @@ pub(crate) struct Arguments {
     /// How the hemisphere is sampled [mis]; all are unbiased
     #[arg(long)]
     pub(super) strategy: Option<Strategy>,
-    /// Where the numbers come from [sobol]
+    /// Where the numbers come from [lattice]
     #[arg(long)]
     pub(super) sampler: Option<SamplerKind>,
     /// Seed of the sampler [0]

@@ -47,8 +47,10 @@ pub enum SamplerKind {
     /// Independent pseudo-random numbers (PCG).
     Independent,
     /// Owen-scrambled Sobol points in independent replicates (Burley 2020).
-    #[default]
     Sobol,
+    /// Rank-1 lattices, shifted and jittered, in independent replicates (Cranley & Patterson 1976).
+    #[default]
+    Lattice,
 }
 
 /// Pixel reconstruction filter, applied by importance sampling: a sample touches one pixel.

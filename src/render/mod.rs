@@ -248,6 +248,7 @@ impl<'a> Tracer<'a> {
             sampler: match settings.sampler {
                 SamplerKind::Independent => sampler::Kind::Independent,
                 SamplerKind::Sobol => sampler::Kind::Sobol,
+                SamplerKind::Lattice => sampler::Kind::Lattice,
             },
         })
     }

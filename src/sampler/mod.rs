@@ -6,11 +6,13 @@
 
 mod hash;
 mod independent;
+mod lattice;
 mod sobol;
 mod specimens;
 
 pub use hash::{hash, mix};
 pub use independent::Independent;
+pub use lattice::Lattice;
 pub use sobol::{Sobol, owen_scramble, sobol_2d};
 pub use specimens::{Specimen, specimens};
 
@@ -20,8 +22,10 @@ pub enum Kind {
     /// Independent pseudo-random numbers (PCG).
     Independent,
     /// Owen-scrambled Sobol points.
-    #[default]
     Sobol,
+    /// Rank-1 lattices, shifted and jittered.
+    #[default]
+    Lattice,
 }
 
 /// The numbers of one sample of one pixel, dimension after dimension.
@@ -31,16 +35,19 @@ pub enum Sampler {
     Independent(Independent),
     /// Owen-scrambled Sobol points.
     Sobol(Sobol),
+    /// Rank-1 lattices, shifted and jittered.
+    Lattice(Lattice),
 }
 
 impl Sampler {
     /// At dimension 0 of sample `index` of `pixel`. `replicate` is the number of samples of an independent replicate,
-    /// a power of two (others are rounded up to one); it matters to [`Kind::Sobol`] only.
+    /// a power of two (others are rounded up to one); [`Kind::Independent`] does not ask for it.
     #[inline]
     pub fn new(kind: Kind, seed: u64, pixel: [u32; 2], index: u64, replicate: u32) -> Self {
         match kind {
             Kind::Independent => Self::Independent(Independent::new(seed, pixel, index)),
             Kind::Sobol => Self::Sobol(Sobol::new(seed, pixel, index, replicate)),
+            Kind::Lattice => Self::Lattice(Lattice::new(seed, pixel, index, replicate)),
         }
     }
 
@@ -50,6 +57,7 @@ impl Sampler {
         match self {
             Self::Independent(s) => s.next_1d(),
             Self::Sobol(s) => s.next_1d(),
+            Self::Lattice(s) => s.next_1d(),
         }
     }
 
@@ -59,6 +67,7 @@ impl Sampler {
         match self {
             Self::Independent(s) => s.next_2d(),
             Self::Sobol(s) => s.next_2d(),
+            Self::Lattice(s) => s.next_2d(),
         }
     }
 
@@ -68,6 +77,7 @@ impl Sampler {
         match self {
             Self::Independent(s) => s.skip_to(dimension),
             Self::Sobol(s) => s.skip_to(dimension),
+            Self::Lattice(s) => s.skip_to(dimension),
         }
     }
 
@@ -77,6 +87,7 @@ impl Sampler {
         match self {
             Self::Independent(s) => s.dimension(),
             Self::Sobol(s) => s.dimension(),
+            Self::Lattice(s) => s.dimension(),
         }
     }
 }
@@ -105,7 +116,7 @@ mod tests {
 
     #[test]
     fn numbers_are_a_function_of_place_alone() {
-        for kind in [Kind::Independent, Kind::Sobol] {
+        for kind in [Kind::Independent, Kind::Sobol, Kind::Lattice] {
             let at = |index| Sampler::new(kind, 7, [3, 5], index, 64);
             let mut straight = at(70_000);
             let numbers: Vec<f32> = (0..40).map(|_| straight.next_1d()).collect();

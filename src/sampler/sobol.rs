@@ -134,13 +134,13 @@ fn owen(x: u32, seed: u32) -> u32 {
 
 /// The part of [`owen`] before the seed.
 #[inline]
-const fn owen_start(x: u32) -> u32 {
+pub(super) const fn owen_start(x: u32) -> u32 {
     x ^ x.wrapping_mul(0x3d20_adea)
 }
 
 /// The part of [`owen`] from the seed on.
 #[inline]
-fn owen_end(x: u32, seed: u32) -> u32 {
+pub(super) fn owen_end(x: u32, seed: u32) -> u32 {
     let x = x.wrapping_add(seed).wrapping_mul((seed >> 16) | 1);
     let x = x ^ x.wrapping_mul(0x0552_6c56);
     x ^ x.wrapping_mul(0x53a2_2864)

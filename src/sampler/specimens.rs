@@ -20,6 +20,9 @@ pub fn specimens() -> Vec<Specimen> {
         ("Sobol, replicates of 4", Kind::Sobol, 4),
         ("Sobol, replicates of 64", Kind::Sobol, 64),
         ("Sobol, replicates of 512", Kind::Sobol, 512),
+        ("lattice, replicates of 4", Kind::Lattice, 4),
+        ("lattice, replicates of 64", Kind::Lattice, 64),
+        ("lattice, replicates of 512", Kind::Lattice, 512),
     ]
     .map(|(name, kind, replicate)| Specimen { name, kind, replicate })
     .into()

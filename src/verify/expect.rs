@@ -26,15 +26,15 @@ pub const ROUNDING: f64 = 1e-5;
 pub const STRATEGIES: [Strategy; 5] =
     [Strategy::Uniform, Strategy::Cosine, Strategy::Bsdf, Strategy::Light, Strategy::Mis];
 
-/// Both samplers.
-pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Independent, SamplerKind::Sobol];
+/// Samplers that every answer is found with: independent numbers, and those that the renderer takes by itself.
+pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Independent, SamplerKind::Lattice];
 
 /// How much is spent on a scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Effort {
     /// Relative bias to detect.
     pub aim: f64,
-    /// Most rays for the renderer's own way: path, MIS, Sobol. It shows what the scene can detect.
+    /// Most rays for the renderer's own way: path, MIS, lattices. It shows what the scene can detect.
     pub own: f64,
     /// Most rays for each other way.
     pub others: f64,
@@ -148,7 +148,7 @@ fn estimate(
 }
 
 /// The size of the largest event of each quantity: what one sample may be off the mean. At least the answer itself (a path
-/// that roulette ends), and at least as much as makes the largest deviation of a replicate of the pilot. Sobol points need it
+/// that roulette ends), and at least as much as makes the largest deviation of a replicate of the pilot. Stratified points need it
 /// most: of N points nearly N p hit what has probability p, most replicates by the same number, so that their spread
 /// says nothing of the few that do not.
 fn events(expect: &Expect, pilot: &Renders) -> Vec<f64> {

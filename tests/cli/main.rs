@@ -71,7 +71,9 @@ fn help_names_commands_options_and_exit_codes() {
     }
     let (code, out, _) = radianza(folder.path(), &["render", "--help"]);
     assert_eq!(code, 0);
-    for word in ["--spp", "--strategy", "mis", "sobol", "agx", "blackman-harris", "transport", "--replay", "whitted"] {
+    for word in
+        ["--spp", "--strategy", "mis", "sobol", "lattice", "agx", "blackman-harris", "transport", "--replay", "whitted"]
+    {
         assert!(out.contains(word), "{word} in\n{out}");
     }
     assert_eq!(radianza(folder.path(), &["--version"]).0, 0);

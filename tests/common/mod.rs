@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 /// Both samplers.
-pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Independent, SamplerKind::Sobol];
+pub const SAMPLERS: [SamplerKind; 2] = [SamplerKind::Independent, SamplerKind::Lattice];
 
 /// A path inside the repository.
 pub fn repo(path: &str) -> PathBuf {
@@ -35,7 +35,7 @@ pub fn settings(size: [u32; 2]) -> Settings {
         replicate: 16,
         integrator: Integrator::Path,
         strategy: Strategy::Mis,
-        sampler: SamplerKind::Sobol,
+        sampler: SamplerKind::Lattice,
         seed: 1,
         max_depth: None,
         filter: Filter::Box,

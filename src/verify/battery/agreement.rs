@@ -112,7 +112,7 @@ fn run(scene: &Scene, case: &Case, trial: &Trial, census: &mut Census, found: &m
         own.push(reference);
     }
     if let [a, b] = &own[..] {
-        let name = "Path/Mis/Independent = sobol";
+        let name = "Path/Mis/Independent = lattice";
         found.exhibits.extend(agreement(&mut found.checks, name, &a.into(), &b.into()));
     }
     Ok(())

@@ -28,7 +28,8 @@ pub(super) fn tasks() -> Vec<Task> {
     for (name, sampler) in [
         ("cornell-box", SamplerKind::Independent),
         ("cornell-box", SamplerKind::Sobol),
-        ("interior", SamplerKind::Sobol),
+        ("cornell-box", SamplerKind::Lattice),
+        ("interior", SamplerKind::Lattice),
     ] {
         let subject = format!("{name}, {}", format!("{sampler:?}").to_lowercase());
         tasks.push(Task::new(E1, subject, move |trial, found| {

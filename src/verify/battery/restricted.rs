@@ -71,7 +71,7 @@ fn truncated(
 ) -> Result<(), Error> {
     for strategy in [Strategy::Cosine, Strategy::Bsdf, Strategy::Light, Strategy::Mis] {
         let settings = |integrator| {
-            let way = Way { integrator, strategy, sampler: SamplerKind::Sobol };
+            let way = Way { integrator, strategy, sampler: SamplerKind::Lattice };
             Settings { max_depth: Some(depth), ..small(way, hash(&[trial.seed, strategy as u64])) }
         };
         let spp = samples(scene, &settings(integrator), trial.work(1.2e5, 3e6))?;
@@ -112,7 +112,7 @@ impl Observer for Restricted {
 
 /// Whitted's tree against the paths that it follows, with other numbers: a tree draws them in another order.
 fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findings) -> Result<(), Error> {
-    let way = Way { integrator: Integrator::Whitted, strategy: Strategy::Mis, sampler: SamplerKind::Sobol };
+    let way = Way { integrator: Integrator::Whitted, strategy: Strategy::Mis, sampler: SamplerKind::Lattice };
     let settings = Settings { crop: [0, 8, 32, 32], ..small(way, trial.seed) };
     let spp = samples(scene, &settings, trial.work(6e5, 1.5e7))?;
     let tree = renders(scene, &Settings { spp, ..settings.clone() })?;

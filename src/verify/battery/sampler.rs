@@ -2,8 +2,8 @@
 //!
 //! Every point of a replicate fills the unit square evenly over seeds, pixels, replicates and dimensions (χ²); numbers of
 //! different places are independent (χ² of pairs, correlations of products and of replicates' means); no number comes twice
-//! in a sample; Sobol points are nets, and their means of known integrals are right, with the variance that theory
-//! promises.
+//! in a sample; Sobol points are nets, lattices are lattices, and means of known integrals are right, with the variance that
+//! theory promises.
 
 use crate::sampler::{Kind, Specimen, specimens};
 use crate::stats::{Moments, chi2_test};
@@ -14,7 +14,7 @@ use std::f64::consts::{E, PI};
 const D3: Topic = Topic {
     id: "D3",
     title: "numbers are uniform, independent between places, and stratified within replicates",
-    source: "Owen 1995, 1997; Sobol 1967; O'Neill 2014; Burley 2020",
+    source: "Korobov 1959; Sobol 1967; Cranley & Patterson 1976; Owen 1995, 1997; O'Neill 2014; Burley 2020",
 };
 
 pub(super) fn tasks() -> Vec<Task> {
@@ -35,7 +35,7 @@ pub(super) fn tasks() -> Vec<Task> {
     specimens()
         .into_iter()
         .flat_map(of)
-        .chain([Task::new(D3, "variance of Sobol over independent points", gain)])
+        .chain([Task::new(D3, "variance of stratified over independent points", gain)])
         .collect()
 }
 
@@ -207,9 +207,10 @@ fn integrals(s: &Specimen, trial: &Trial, found: &mut Findings) {
     }
 }
 
-/// Of Sobol points: one in each elementary interval of every prefix of a power of two; and the variance of the mean of x
-/// is 1/(12 n³), for of n points one lies in each interval of length 1/n, uniform there and independent of the others (Owen
-/// 1997). Of independent points it is 1/(12 n).
+/// Of Sobol points: one in each elementary interval of every prefix of a power of two. Of lattices: neighbours in y are
+/// everywhere the same number of cells apart in x. Of both, the variance of the mean of x is 1/(12 n³), for of n points one
+/// lies in each interval of length 1/n, uniform there and independent of the others (Owen 1997); of independent points it
+/// is 1/(12 n).
 fn stratification(s: &Specimen, trial: &Trial, found: &mut Findings) {
     let n = f64::from(s.replicate);
     let exact = match s.kind {
@@ -218,6 +219,13 @@ fn stratification(s: &Specimen, trial: &Trial, found: &mut Findings) {
             found
                 .checks
                 .holds("every prefix is a (0, 2)-net", [0, 2, 7, 1000].into_iter().all(|d| is_net(s, trial.seed, d)));
+            1.0 / (12.0 * n.powi(3))
+        }
+        Kind::Lattice => {
+            found.checks.holds(
+                "every replicate is a lattice",
+                [0, 2, 7, 1000].into_iter().all(|d| is_lattice(s, trial.seed, d)),
+            );
             1.0 / (12.0 * n.powi(3))
         }
     };
@@ -256,14 +264,37 @@ fn is_net(s: &Specimen, seed: u64, dimension: u32) -> bool {
     })
 }
 
-/// Owen-scrambled points do better than independent ones: much for a smooth integrand of one pair, whose variance falls
-/// as n⁻³ log n and not n⁻¹; less where there is an edge or a product over several pairs.
+/// Whether the points of the first blocks fill each row and each column of n × n cells once, and the way in x from each row
+/// to the next is the same, round the torus (Korobov 1959).
+fn is_lattice(s: &Specimen, seed: u64, dimension: u32) -> bool {
+    let n = s.replicate;
+    (0..4).all(|block| {
+        let mut columns = vec![n; n as usize];
+        let mut rows = columns.clone();
+        for i in 0..u64::from(n) {
+            let point = s.at(seed, [1, 2], block * u64::from(n) + i, dimension).next_2d();
+            let [x, y] = point.map(|u| (u * n as f32) as u32);
+            (rows[y as usize], columns[x as usize]) = (x, y);
+        }
+        let step = |y: usize| (rows[(y + 1) % n as usize] + n - rows[y]) % n;
+        let complete = [&rows, &columns].into_iter().all(|cells| cells.iter().all(|&cell| cell < n));
+        complete && (0..n as usize).all(|y| step(y) == step(0))
+    })
+}
+
+/// Stratified points do better than independent ones: much for a smooth integrand of one pair, whose variance falls
+/// as n⁻³ log n (Sobol) or n⁻² (lattices) and not n⁻¹; less where there is an edge or a product over several pairs.
 fn gain(trial: &Trial, found: &mut Findings) {
     for (name, _, f) in INTEGRANDS {
         let variance = |kind| means(&Specimen { name, kind, replicate: 512 }, trial.seed, 512, f).variance();
-        let gain = variance(Kind::Independent) / variance(Kind::Sobol);
-        let least = if name == "x y" { 100.0 } else { 1.5 };
-        found.checks.holds(format!("{name}: the variance falls more than {least} times"), gain > least);
-        found.words.push(format!("{name}: 512 Sobol points have {gain:.1} times less variance than independent ones."));
+        let independent = variance(Kind::Independent);
+        for (kind, smooth) in [(Kind::Sobol, 100.0), (Kind::Lattice, 50.0)] {
+            let gain = independent / variance(kind);
+            let least = if name == "x y" { smooth } else { 1.5 };
+            found.checks.holds(format!("{name}, {kind:?}: the variance falls more than {least} times"), gain > least);
+            found
+                .words
+                .push(format!("{name}: 512 points, {kind:?}: {gain:.1} times less variance than independent ones."));
+        }
     }
 }

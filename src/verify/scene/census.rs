@@ -60,7 +60,7 @@ fn replays(subject: &Subject, settings: &Settings, output: &Output) -> Vec<Strin
     let file = subject.desc.source.as_ref().map_or("SCENE".into(), |path| path.display().to_string());
     let [w, h] = settings.size;
     let common = format!(
-        "radianza render {file} --camera {} --size {w}x{h} --spp {} --replicate {} --seed {} --sampler sobol \
+        "radianza render {file} --camera {} --size {w}x{h} --spp {} --replicate {} --seed {} --sampler lattice \
          --integrator path --strategy mis --filter box",
         settings.camera, settings.spp, settings.replicate, settings.seed
     );

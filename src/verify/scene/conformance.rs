@@ -20,7 +20,7 @@ const PLACES: usize = 120;
 /// Most places of a material.
 const PLACES_OF_ONE: usize = 6;
 
-/// Most Sobol points of each replicate for an albedo.
+/// Most lattice points of each replicate for an albedo.
 const POINTS: u64 = 1 << 8;
 
 /// A material, and what it sends on at most.

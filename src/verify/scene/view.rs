@@ -52,7 +52,7 @@ impl View {
             replicate,
             integrator: Integrator::Path,
             strategy: self.strategy,
-            sampler: SamplerKind::Sobol,
+            sampler: SamplerKind::Lattice,
             // JSON headers and command lines carry 53 bits.
             seed: self.seed >> 11,
             max_depth: None,
