@@ -9,17 +9,47 @@ use std::f32::consts::FRAC_2_PI;
 /// ln of half of [`crate::bsdf::ggx::MIN_ALPHA`]: the least α in the tables.
 const LOG_MIN: f32 = -9.903_487;
 
-/// Where μ stands in the grid: steps in proportion to μ where μ > α, ever finer ones towards the horizon, and likewise
-/// about the critical angle, where features are as wide as α.
+/// Where μ stands in the grid at a roughness: steps in proportion to μ where μ > α, ever finer ones towards the horizon,
+/// and likewise about the critical angle, where features are as wide as α.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Axis {
+    inverse_alpha: f32,
+    /// 1/asinh(1/α).
+    scale: f32,
+    /// Cosine of the critical angle, 0 without.
+    critical: f32,
+    /// From the horizon to the critical angle, and one over the way from there to the normal.
+    below: f32,
+    critical_scale: f32,
+}
+
+impl Axis {
+    #[inline]
+    pub(super) fn new(interface: Interface, alpha: f32) -> Self {
+        let (inverse_alpha, critical) = (1.0 / alpha, interface.critical());
+        let (mut below, mut critical_scale) = (0.0, 0.0);
+        if critical > 0.0 {
+            below = asinh(critical * inverse_alpha);
+            critical_scale = 1.0 / (asinh((1.0 - critical) * inverse_alpha) + below);
+        }
+        Self { inverse_alpha, scale: 1.0 / asinh(inverse_alpha), critical, below, critical_scale }
+    }
+
+    /// In \[0, 1\].
+    #[inline]
+    pub(super) fn at(&self, mu: f32) -> f32 {
+        let x = (asinh(mu * self.inverse_alpha) * self.scale).sqrt();
+        if self.critical == 0.0 {
+            return x;
+        }
+        0.5 * (x + (asinh((mu - self.critical) * self.inverse_alpha) + self.below) * self.critical_scale)
+    }
+}
+
+/// [`Axis::at`] where no more is asked of the axis.
 #[inline]
 pub(super) fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
-    let x = (asinh(mu / alpha) / asinh(1.0 / alpha)).sqrt();
-    let critical = interface.critical();
-    if critical == 0.0 {
-        return x;
-    }
-    let below = asinh(critical / alpha);
-    0.5 * (x + (asinh((mu - critical) / alpha) + below) / (asinh((1.0 - critical) / alpha) + below))
+    Axis::new(interface, alpha).at(mu)
 }
 
 /// Inverse hyperbolic sine; fast, and odd to the last bit.

@@ -74,6 +74,14 @@ impl<T: Value> Grid<T> {
         self.with(Stencil::new(x, self.nx), y)
     }
 
+    /// Values at all nodes of the first variable, at the stencil `y` of the other.
+    pub(in crate::bsdf) fn line(&self, y: Stencil) -> Box<[T]> {
+        let at = |x: usize| {
+            (0..4).fold(T::default(), |sum, j| sum + self.nodes[(y.first() + j) * self.nx + x] * y.weight(j))
+        };
+        (0..self.nx).map(at).collect()
+    }
+
     /// Value at the stencils of both variables.
     #[inline]
     pub(in crate::bsdf) fn with(&self, x: Stencil, y: Stencil) -> T {

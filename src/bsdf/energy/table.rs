@@ -1,7 +1,7 @@
 //! Tables of the energy over direction and roughness, computed once for each interface.
 
 use super::atlas::{Atlas, Pair};
-use super::axes::{abscissa, alpha_of, azimuth, invert, log_alpha, shape};
+use super::axes::{Axis, abscissa, alpha_of, azimuth, invert, log_alpha, shape};
 use super::grid::{Grid, Stencil, Value};
 use super::interface::{Energy, Interface};
 use super::moments::Moments;
@@ -36,6 +36,8 @@ pub struct EnergyTable {
     /// Of series over the angle, where one has been asked for.
     pub(super) moments: OnceLock<Moments>,
     grid: Grid<Vec4>,
+    /// Lines of the grid at an α (its bits) that many look-ups will share.
+    lines: Mutex<HashMap<u32, &'static [Vec4]>>,
     /// (ln loss, parts) averaged over the hemisphere, at equidistant ln α; anisotropic tables have one.
     means: Vec<Vec4>,
 }
@@ -47,6 +49,10 @@ pub struct Slice {
     pub(super) table: &'static EnergyTable,
     pub(super) ggx: Ggx,
     row: Stencil,
+    /// Of isotropic microsurfaces: where directions stand, and the line of the grid that the row interpolates, if it is
+    /// there.
+    axis: Axis,
+    line: Option<&'static [Vec4]>,
     /// Every pair of roughnesses, where there is no table of this one.
     atlas: Option<(&'static Atlas, Pair)>,
     /// The larger α, squared, and ln(1 + 1/α²).
@@ -61,7 +67,8 @@ impl Slice {
     /// slices when materials are compiled, and where roughness varies over the surface by [`Slice::isotropic`].
     pub fn new(interface: Interface, ggx: Ggx) -> Self {
         if ggx.ax == ggx.ay {
-            return Self::isotropic(EnergyTable::isotropic(interface), ggx.ax);
+            let slice = Self::isotropic(EnergyTable::isotropic(interface), ggx.ax);
+            return Self { line: Some(slice.table.line(ggx.ax, slice.row)), ..slice };
         }
         let table = EnergyTable::memoised(interface, Some(ggx));
         Self::with(table, ggx, Stencil::new(0.0, N_AZIMUTH), unpack_mean(table.means[0]))
@@ -86,7 +93,8 @@ impl Slice {
     #[inline]
     fn with(table: &'static EnergyTable, ggx: Ggx, row: Stencil, mean: Energy) -> Self {
         let alpha2 = sqr(ggx.ax.max(ggx.ay));
-        Self { table, ggx, row, atlas: None, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
+        let axis = Axis::new(table.interface, ggx.ax);
+        Self { table, ggx, row, axis, line: None, atlas: None, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
     }
 
     /// Energies depend on the azimuth.
@@ -100,8 +108,17 @@ impl Slice {
         if let Some((atlas, pair)) = &self.atlas {
             return atlas.at(self.ggx, pair, w);
         }
-        let (alpha, row) = self.place(w);
-        self.table.energy(w.z.abs().min(1.0), alpha, row)
+        let mu = w.z.abs().min(1.0);
+        if self.is_anisotropic() {
+            let (alpha, row) = self.place(w);
+            return self.table.energy(mu, alpha, row);
+        }
+        let x = self.axis.at(mu);
+        let value = match self.line {
+            Some(line) => Stencil::new(x, line.len()).over(line),
+            None => self.table.grid.at(x, self.row),
+        };
+        unpack(self.table.interface, value, mu, self.ggx.ax)
     }
 
     /// The roughness that the azimuth of `w` meets, and the row of the table.
@@ -129,6 +146,12 @@ impl EnergyTable {
     #[inline]
     pub(super) fn energy(&self, mu: f32, alpha: f32, row: Stencil) -> Energy {
         unpack(self.interface, self.grid.at(abscissa(self.interface, mu, alpha), row), mu, alpha)
+    }
+
+    /// The line of the grid in a row, made the first time.
+    fn line(&self, alpha: f32, row: Stencil) -> &'static [Vec4] {
+        let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
+        lines.entry(alpha.to_bits()).or_insert_with(|| Box::leak(self.grid.line(row)))
     }
 
     fn memoised(interface: Interface, anisotropic: Option<Ggx>) -> &'static Self {
@@ -163,7 +186,7 @@ impl EnergyTable {
         });
         let means = means(n_alpha(interface), anisotropic, |row, alpha| mean_over_cosine(interface, &grid, row, alpha));
         let means = means.into_iter().map(pack_mean).collect();
-        Self { interface, anisotropic, moments: OnceLock::new(), grid, means }
+        Self { interface, anisotropic, moments: OnceLock::new(), grid, lines: Mutex::default(), means }
     }
 }
 
