@@ -15,7 +15,7 @@ mod scenes;
 
 use cpu_time::ThreadTime;
 use embree::{BuildQuality, Embree};
-use radianza::bvh::{Isa, Quality, TriangleBvh};
+use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
 use radianza::math::Ray;
 use scenes::{Meshed, Query, RaySet};
 use std::hint::black_box;
@@ -150,10 +150,10 @@ fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
 
 fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray]) -> (usize, f64) {
     match query {
-        Query::Nearest => rays.iter().fold((0, 0.0), |(n, sum), ray| match bvh.nearest(ray) {
+        Query::Nearest => rays.iter().fold((0, 0.0), |(n, sum), ray| match bvh.nearest(ray, Slot::NONE) {
             Some(hit) => (n + 1, sum + f64::from(hit.t)),
             None => (n, sum),
         }),
-        Query::Occluded => (rays.iter().filter(|ray| bvh.occluded(ray)).count(), 0.0),
+        Query::Occluded => (rays.iter().filter(|ray| bvh.occluded(ray, Slot::NONE)).count(), 0.0),
     }
 }

@@ -1,7 +1,7 @@
 //! Five scenes, and rays as a path tracer asks them.
 
 use glam::{Quat, Vec3};
-use radianza::bvh::TriangleBvh;
+use radianza::bvh::{Slot, TriangleBvh};
 use radianza::desc;
 use radianza::math::{Frame, Ray, offset_origin};
 use radianza::sampler::{Kind, Sampler};
@@ -116,7 +116,7 @@ impl Meshed {
     fn leave(&self, bvh: &TriangleBvh, rays: &[Ray], u: &mut Sampler) -> (Vec<Ray>, Vec<Ray>) {
         let (mut bounces, mut shadows) = (Vec::new(), Vec::new());
         for ray in rays {
-            let Some(hit) = bvh.nearest(ray) else { continue };
+            let Some(hit) = bvh.nearest(ray, Slot::NONE) else { continue };
             let corners = bvh.vertices(&hit);
             let Some(n) = triangle_normal(corners) else { continue };
             let n = if n.dot(ray.d) > 0.0 { -n } else { n };

@@ -24,6 +24,11 @@ pub struct Bsdf {
     layers: Layers,
     /// Σ weight.
     total: f32,
+    /// Albedo of the only lobe where it is Lambert's: most surfaces of most scenes, and worth a way of its own.
+    lambert: Option<Spectrum>,
+    /// Some lobe is no delta; some other than a delta lets light through.
+    smooth: bool,
+    transmits: bool,
 }
 
 impl Bsdf {
@@ -38,13 +43,14 @@ impl Bsdf {
         self.entries.clear();
         self.layers.clear();
         self.total = 0.0;
+        (self.lambert, self.smooth, self.transmits) = (None, false, false);
     }
 
     /// One lobe.
     #[inline]
     pub fn single(lobe: Lobe) -> Self {
-        let mut bsdf = Self { entries: ArrayVec::new(), layers: ArrayVec::new(), total: 1.0 };
-        bsdf.entries.push(Entry::new(lobe, None, 1.0, 1.0));
+        let mut bsdf = Self::new();
+        bsdf.push(lobe, 1.0, 1.0);
         bsdf
     }
 
@@ -68,6 +74,12 @@ impl Bsdf {
         }
         let weight = if weight > 1e-4 { weight } else { 1e-4 };
         self.total += weight;
+        self.lambert = match &entry.lobe {
+            Lobe::Lambert(l) if self.entries.is_empty() && entry.is_plain() => Some(l.reflectance * scale),
+            _ => None,
+        };
+        self.smooth |= !entry.lobe.is_delta();
+        self.transmits |= entry.lobe.transmits();
         self.entries.push(entry.weighing(weight));
         true
     }
@@ -98,6 +110,7 @@ impl Bsdf {
         for entry in &mut self.entries[from..] {
             entry.cover(&self.layers, wo);
         }
+        self.lambert = None;
         self.total = self.entries.iter().map(|e| e.weight).sum();
         true
     }
@@ -127,13 +140,13 @@ impl Bsdf {
     /// Some lobe is no delta: sampling lights makes sense.
     #[inline]
     pub fn has_smooth(&self) -> bool {
-        self.entries.iter().any(|e| !e.lobe.is_delta())
+        self.smooth
     }
 
     /// Light can come from below, other than as a delta.
     #[inline]
     pub fn transmits(&self) -> bool {
-        self.entries.iter().any(|e| e.lobe.transmits())
+        self.transmits
     }
 
     /// Probability that [`Self::sample`] chooses a delta lobe.
@@ -149,7 +162,7 @@ impl Bsdf {
         if wo.z == 0.0 {
             return None;
         }
-        match self.only_lambert() {
+        match self.lambert {
             Some(weight) => {
                 let wi = sample_cosine(wo, u);
                 let pdf = Pdf::SolidAngle(wi.z.abs() * FRAC_1_PI);
@@ -181,7 +194,7 @@ impl Bsdf {
     /// f and density of the non-delta lobes for a pair of directions.
     #[inline]
     pub fn eval(&self, wo: Vec3, wi: Vec3, mode: Transport) -> Eval {
-        match self.only_lambert() {
+        match self.lambert {
             Some(_) if wo.z * wi.z <= 0.0 => Eval::default(),
             Some(albedo) => {
                 let pdf = wi.z.abs() * FRAC_1_PI;
@@ -286,15 +299,6 @@ impl Bsdf {
         match self.transmitted(wo).zip(self.transmitted(wi)) {
             Some((o, i)) => entry.dimmed(&o, &i),
             None => 1.0,
-        }
-    }
-
-    /// Albedo of the only lobe where it is Lambert's: most surfaces of most scenes, and worth a way of its own.
-    #[inline(always)]
-    fn only_lambert(&self) -> Option<Spectrum> {
-        match self.entries.as_slice() {
-            [e @ Entry { lobe: Lobe::Lambert(l), scale, .. }] if e.is_plain() => Some(l.reflectance * *scale),
-            _ => None,
         }
     }
 

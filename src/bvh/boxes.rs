@@ -4,6 +4,7 @@ use super::Aabb;
 use super::build::{Quality, build};
 use super::kernel::{self, Entry, Isa, KernelRay, Stack};
 use super::node::{LEAF, Node};
+use super::triangles::Slot;
 use crate::math::Ray;
 
 /// Boxes whose contents are asked by a closure.
@@ -35,7 +36,7 @@ impl BoxBvh {
             return false;
         }
         let mut ray = *ray;
-        let prepared = KernelRay::new(&ray);
+        let prepared = KernelRay::new(&ray, Slot::NONE);
         let (mut stack, mut size) = (Stack::new(), 0);
         stack.push(&mut size, Entry::new(0.0, 0));
         let mut found = false;

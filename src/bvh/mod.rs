@@ -14,7 +14,7 @@ mod triangles;
 pub use boxes::BoxBvh;
 pub use build::Quality;
 pub use kernel::Isa;
-pub use triangles::{TriangleBvh, TriangleHit};
+pub use triangles::{Slot, TriangleBvh, TriangleHit};
 
 use glam::Vec3;
 

@@ -21,8 +21,35 @@ pub struct TriangleHit {
     pub v: f32,
     /// Which triangle.
     pub triangle: u32,
-    /// Leaf and lane that hold it.
-    pub(super) slot: u32,
+    /// Where the tree holds it.
+    pub slot: Slot,
+}
+
+/// A place for a triangle in a tree. A ray that leaves the triangle there does not meet it again, which it knows better than
+/// rounding can tell.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Slot(u32);
+
+impl Slot {
+    /// Of a ray that leaves no triangle of the tree.
+    pub const NONE: Self = Self(NONE);
+
+    #[inline]
+    pub(super) fn new(leaf: u32, lane: u32) -> Self {
+        Self(leaf * WIDTH as u32 + lane)
+    }
+
+    /// Leaf and lane.
+    #[inline]
+    pub(super) fn place(self) -> (usize, usize) {
+        (self.0 as usize / WIDTH, self.0 as usize % WIDTH)
+    }
+}
+
+impl Default for Slot {
+    fn default() -> Self {
+        Self::NONE
+    }
 }
 
 /// Triangles that rays can ask two questions.
@@ -86,29 +113,31 @@ impl TriangleBvh {
         isa.is_available().then_some(self)
     }
 
-    /// The nearest hit in (0, `ray.t_max`).
+    /// The nearest hit in (0, `ray.t_max`) of a ray that leaves the triangle at `leaving`.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray) -> Option<TriangleHit> {
+    pub fn nearest(&self, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
         let mut hit = TriangleHit::default();
         let found = !self.nodes.is_empty()
-            && kernel::nearest(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray), &mut hit);
+            && kernel::nearest(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray, leaving), &mut hit);
         if !found {
             return None;
         }
-        hit.triangle = self.ids[hit.slot as usize / WIDTH][hit.slot as usize % WIDTH];
+        let (leaf, lane) = hit.slot.place();
+        hit.triangle = self.ids[leaf][lane];
         Some(hit)
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`).
+    /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray))
+    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
+        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray, leaving))
     }
 
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.
     #[inline]
     pub fn vertices(&self, hit: &TriangleHit) -> [Vec3; 3] {
-        self.leaves[hit.slot as usize / WIDTH].triangle(hit.slot as usize % WIDTH).map(Vec3::from)
+        let (leaf, lane) = hit.slot.place();
+        self.leaves[leaf].triangle(lane).map(Vec3::from)
     }
 
     /// Box about all triangles.

@@ -9,7 +9,7 @@ use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
-use crate::scene::{Shading, Vertex};
+use crate::scene::{Departure, Shading, Vertex};
 use crate::spectrum::Spectrum;
 
 /// L = Le + ∫ f Le |cos| dω.
@@ -18,7 +18,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let none = Classes::default();
     let (mut inside, mut lane) = (method.inside.clone(), None);
     watch.ray();
-    let met = method.scene.intersect_from(ray, &mut inside, &mut || sampler.next_1d());
+    let met = method.scene.intersect_from(ray, Departure::NOWHERE, &mut inside, &mut || sampler.next_1d());
     let mut beta = medium::on_the_way(method, ray, met.as_ref(), &inside);
     let Some(vertex) = met else {
         sample.radiance = beta * environment(method, ray, Drawn::Camera);
@@ -75,7 +75,7 @@ pub(super) fn reflected<O: Observer>(
     let Some(Scattered { ray, drawn, weight, specular, .. }) = next.filter(|next| keep(next.drawn)) else { return sum };
     let mut inside = sides.towards(vertex, ray.d).clone();
     watch.ray();
-    let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
+    let met = scene.intersect_from(&ray, vertex.departure, &mut inside, &mut || sampler.next_1d());
     let le = match &met {
         Some(end) => emitted(method, end, drawn),
         None => environment(method, &ray, drawn),

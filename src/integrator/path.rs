@@ -8,6 +8,7 @@ use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
+use crate::scene::{Departure, Vertex};
 use crate::spectrum::Spectrum;
 
 /// Throughput below which roulette is played, η² of refractions kept out; the survivors are held there. What a game at
@@ -23,23 +24,24 @@ const LONG: u32 = 8;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let scene = method.scene;
     let mut sample = PixelSample::default();
-    let (mut ray, mut drawn) = (*ray, Drawn::Camera);
+    let (mut ray, mut leaving, mut drawn) = (*ray, Departure::NOWHERE, Drawn::Camera);
     let (mut beta, mut eta_scale) = (Spectrum::ONE, 1.0);
     let (mut inside, mut lane) = (method.inside.clone(), None);
     let mut classes = Classes::default();
-    let mut scratch = Bsdf::new();
+    let (mut scratch, mut vertex) = (Bsdf::new(), Vertex::NOWHERE);
 
     for depth in 0.. {
         watch.ray();
-        let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
-        beta *= medium::on_the_way(method, &ray, met.as_ref(), &inside);
-        let Some(vertex) = &met else {
+        let met = scene.meet(&ray, leaving, &mut inside, &mut || sampler.next_1d(), &mut vertex);
+        beta *= medium::on_the_way(method, &ray, met.then_some(&vertex), &inside);
+        if !met {
             let light = beta * environment(method, &ray, drawn);
             sample.radiance += light;
             watch.light(light, &classes);
             watch.escaped(depth, &ray, beta);
             break;
-        };
+        }
+        let vertex = &vertex;
 
         // Le
         let light = beta * emitted(method, vertex, drawn);
@@ -86,7 +88,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         if !next.straight {
             drawn = next.drawn;
         }
-        ray = next.ray;
+        (ray, leaving) = (next.ray, vertex.departure);
         if let Some(changed) = sides.changed(vertex, ray.d).cloned() {
             inside = changed;
         }

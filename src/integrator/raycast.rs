@@ -6,13 +6,14 @@ use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
+use crate::scene::Departure;
 
 /// L = Le.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
     let mut inside = method.inside.clone();
     watch.ray();
-    let met = method.scene.intersect_from(ray, &mut inside, &mut || sampler.next_1d());
+    let met = method.scene.intersect_from(ray, Departure::NOWHERE, &mut inside, &mut || sampler.next_1d());
     let beta = medium::on_the_way(method, ray, met.as_ref(), &inside);
     match met {
         None => {

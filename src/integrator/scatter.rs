@@ -20,7 +20,7 @@
 
 use super::{Drawn, Method, strategy};
 use crate::bsdf::{Pdf, Sample, Transport};
-use crate::math::{Frame, Ray};
+use crate::math::{Frame, Ray, renormalize};
 use crate::sampler::Sampler;
 use crate::scene::{Shading, Vertex};
 use crate::spectrum::Spectrum;
@@ -77,7 +77,7 @@ pub(super) fn draw(
 ) -> Option<Scattered> {
     let Sample { wi: local, mut weight, mut specular, pdf, eta } =
         strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
-    let mut wi = shading.frame.to_world(local).normalize();
+    let mut wi = renormalize(shading.frame.to_world(local));
     let (mut straight, mut stray) = (false, None);
     let from = shading.receiver(vertex);
     let drawn = if shading.agrees(vertex, wi, local) {

@@ -7,6 +7,7 @@ use crate::bsdf::{Bsdf, Transport};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
+use crate::scene::Departure;
 use crate::spectrum::Spectrum;
 
 /// A branch whose weight falls below this plays roulette for its life, so that trees end without bias.
@@ -16,11 +17,12 @@ const FAINT: f32 = 0.05;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let scene = method.scene;
     let (mut sample, mut scratch) = (PixelSample::default(), Bsdf::new());
-    let mut branches = vec![(*ray, Drawn::Camera, Spectrum::ONE, Classes::default(), method.inside.clone(), None)];
-    while let Some((ray, drawn, mut beta, classes, mut inside, mut lane)) = branches.pop() {
+    let mut branches =
+        vec![(*ray, Departure::NOWHERE, Drawn::Camera, Spectrum::ONE, Classes::default(), method.inside.clone(), None)];
+    while let Some((ray, leaving, drawn, mut beta, classes, mut inside, mut lane)) = branches.pop() {
         watch.ray();
         let depth = classes.reflections();
-        let met = scene.intersect_from(&ray, &mut inside, &mut || sampler.next_1d());
+        let met = scene.intersect_from(&ray, leaving, &mut inside, &mut || sampler.next_1d());
         beta *= medium::on_the_way(method, &ray, met.as_ref(), &inside);
         let Some(vertex) = met else {
             let light = beta * environment(method, &ray, drawn);
@@ -64,7 +66,8 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
             }
             beta *= 1.0 / survival;
             let (ray, inside) = (shading.leave(&vertex, wi), sides.towards(&vertex, wi).clone());
-            branches.push((ray, Drawn::Delta, beta, classes.reflected(next.weight, next.specular), inside, lane));
+            let classes = classes.reflected(next.weight, next.specular);
+            branches.push((ray, vertex.departure, Drawn::Delta, beta, classes, inside, lane));
         }
     }
     sample

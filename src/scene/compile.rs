@@ -149,7 +149,8 @@ impl<'a> Builder<'a> {
                 let owner = Owner { material, emitter };
                 let uses = self.uses[object.shape];
                 if uses == 1 || uses * mesh.indices.len() <= FEW_TRIANGLES {
-                    self.parts.push(Part { mesh: to_world(mesh, &transform), owner, flip });
+                    let mesh = to_world(mesh, &transform);
+                    self.parts.push(Part { plain: !mesh.has_attributes(), mesh, owner, flip });
                 } else {
                     let prototype = *self.prototype_of[object.shape].get_or_insert_with(|| {
                         let bvh = TriangleBvh::build(&mesh.positions, &mesh.indices, self.quality);

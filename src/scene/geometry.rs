@@ -1,6 +1,6 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
-use crate::bvh::{Aabb, BoxBvh, Quality, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, BoxBvh, Quality, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{
@@ -27,6 +27,8 @@ pub struct Part {
     pub owner: Owner,
     /// The front is the side from which the vertices run clockwise.
     pub flip: bool,
+    /// The mesh carries nothing but its positions.
+    pub plain: bool,
 }
 
 /// Where a triangle of the world tree came from.
@@ -73,6 +75,31 @@ pub struct Hit {
 
 /// Object of a hit on geometry that stands once.
 const WORLD: u32 = u32::MAX;
+
+/// The triangle that a ray leaves and cannot meet again: whose, and where its tree holds it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Departure {
+    object: u32,
+    slot: Slot,
+}
+
+impl Departure {
+    /// Of rays that leave no triangle.
+    pub const NOWHERE: Self = Self { object: WORLD, slot: Slot::NONE };
+
+    #[inline]
+    fn from(self, object: u32) -> Slot {
+        if self.object == object { self.slot } else { Slot::NONE }
+    }
+}
+
+impl Hit {
+    /// Of the rays that leave the surface here.
+    #[inline]
+    pub fn departure(&self) -> Departure {
+        Departure { object: self.object, slot: self.triangle.slot }
+    }
+}
 
 /// All surfaces.
 #[derive(Debug)]
@@ -130,20 +157,21 @@ impl Geometry {
 
     /// Nearest hit in (0, `ray.t_max`).
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray) -> Option<Hit> {
-        let nearest = self.world.nearest(ray).map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
+    pub fn nearest(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
+        let nearest = self.world.nearest(ray, leaving.from(WORLD));
+        let nearest = nearest.map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
         if self.objects.is_empty() {
             return nearest;
         }
-        self.nearest_object(ray, nearest.map_or(ray.t_max, |hit| hit.t)).or(nearest)
+        self.nearest_object(ray, leaving, nearest.map_or(ray.t_max, |hit| hit.t)).or(nearest)
     }
 
     /// Nearest hit of instances and quadrics in (0, `t_max`).
     #[inline(never)]
-    fn nearest_object(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+    fn nearest_object(&self, ray: &Ray, leaving: Departure, t_max: f32) -> Option<Hit> {
         let mut nearest = None;
         self.objects.traverse(&Ray { t_max, ..*ray }, |object, ray| {
-            let hit = self.object(object, ray)?;
+            let hit = self.object(object, ray, leaving)?;
             nearest = Some(hit);
             Some(hit.t)
         });
@@ -152,16 +180,19 @@ impl Geometry {
 
     /// Whether anything is hit in (0, `ray.t_max`).
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray) -> bool {
-        self.world.occluded(ray) || (!self.objects.is_empty() && self.occluded_by_object(ray))
+    pub fn occluded(&self, ray: &Ray, leaving: Departure) -> bool {
+        self.world.occluded(ray, leaving.from(WORLD))
+            || (!self.objects.is_empty() && self.occluded_by_object(ray, leaving))
     }
 
     /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
     #[inline(never)]
-    fn occluded_by_object(&self, ray: &Ray) -> bool {
+    fn occluded_by_object(&self, ray: &Ray, leaving: Departure) -> bool {
         self.objects.traverse(ray, |object, ray| {
             match self.instances.get(object as usize) {
-                Some(instance) => instance.occluded(&self.prototypes[instance.prototype as usize], ray),
+                Some(instance) => {
+                    instance.occluded(&self.prototypes[instance.prototype as usize], ray, leaving.from(object))
+                }
                 None => self.quadrics[object as usize - self.instances.len()].0.intersect(ray).is_some(),
             }
             .then_some(0.0)
@@ -169,10 +200,11 @@ impl Geometry {
     }
 
     /// Nearest hit of one instance or quadric.
-    fn object(&self, object: u32, ray: &Ray) -> Option<Hit> {
+    fn object(&self, object: u32, ray: &Ray, leaving: Departure) -> Option<Hit> {
         match self.instances.get(object as usize) {
             Some(instance) => {
-                let triangle = instance.nearest(&self.prototypes[instance.prototype as usize], ray)?;
+                let prototype = &self.prototypes[instance.prototype as usize];
+                let triangle = instance.nearest(prototype, ray, leaving.from(object))?;
                 Some(Hit { t: triangle.t, triangle, object })
             }
             None => {
@@ -182,23 +214,25 @@ impl Geometry {
         }
     }
 
-    /// The surface at a hit of `ray`, and whose it is (with the emitter of this very triangle).
+    /// The surface at a hit on a triangle of the world that carries nothing but its positions, and whose it is (with the
+    /// emitter of this very triangle). `None` of all others, which are apart so that these need not pass through memory for
+    /// their sake.
     #[inline(always)]
-    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
-        if hit.object == WORLD {
-            let TriangleHit { u, v, triangle, .. } = hit.triangle;
-            let Origin { part, triangle, ng } = self.origin[triangle as usize];
-            let part = &self.parts[part as usize];
-            if !part.mesh.has_attributes() {
-                return (flat_surface(self.world.vertices(&hit.triangle), u, v, ng), part.owner.of_triangle(triangle));
-            }
+    pub fn plain_surface(&self, hit: &Hit) -> Option<(Surface, Owner)> {
+        if hit.object != WORLD {
+            return None;
         }
-        self.surface_in_full(ray, hit)
+        let TriangleHit { u, v, triangle, .. } = hit.triangle;
+        let Origin { part, triangle, ng } = self.origin[triangle as usize];
+        let part = &self.parts[part as usize];
+        if !part.plain {
+            return None;
+        }
+        Some((flat_surface(self.world.vertices(&hit.triangle), u, v, ng), part.owner.of_triangle(triangle)))
     }
 
-    /// The same of all but plain triangles: apart from these, so that they do not pass through memory for its sake.
-    #[inline(never)]
-    fn surface_in_full(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
+    /// The surface at any hit of `ray`, and whose it is.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
         let TriangleHit { u, v, triangle, .. } = hit.triangle;
         if hit.object == WORLD {
             let Origin { part, triangle, ng } = self.origin[triangle as usize];
@@ -264,15 +298,15 @@ impl Instance {
         (Ray { o: o + d * shift, d, t_max: ray.t_max - shift }, shift)
     }
 
-    fn nearest(&self, prototype: &Prototype, ray: &Ray) -> Option<TriangleHit> {
+    fn nearest(&self, prototype: &Prototype, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
         let (local, skipped) = self.ray(ray);
-        let mut hit = prototype.bvh.nearest(&local)?;
+        let mut hit = prototype.bvh.nearest(&local, leaving)?;
         hit.t += skipped;
         Some(hit)
     }
 
-    fn occluded(&self, prototype: &Prototype, ray: &Ray) -> bool {
-        prototype.bvh.occluded(&self.ray(ray).0)
+    fn occluded(&self, prototype: &Prototype, ray: &Ray, leaving: Slot) -> bool {
+        prototype.bvh.occluded(&self.ray(ray).0, leaving)
     }
 
     fn bounds(&self, prototype: &Prototype) -> Aabb {

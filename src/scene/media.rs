@@ -1,6 +1,6 @@
 //! Interiors of a scene's materials, and which of them a point is in.
 
-use super::{Scene, Vertex};
+use super::{Departure, Scene, Vertex};
 use crate::desc;
 use crate::material;
 use crate::math::{Ray, offset_origin};
@@ -149,9 +149,9 @@ impl Scene {
 
     /// The interiors that a ray leaves without having entered them, in order.
     fn left(&self, p: Vec3, way: Vec3) -> ArrayVec<u32, MOST_NESTED> {
-        let mut ray = Ray::new(p, way.normalize());
+        let (mut ray, mut leaving) = (Ray::new(p, way.normalize()), Departure::NOWHERE);
         let (mut left, mut entered) = (ArrayVec::new(), vec![0u32; self.media.interiors.len()]);
-        while let Some(hit) = self.geometry.nearest(&ray) {
+        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
             let vertex = self.vertex(&ray, &hit);
             if let Some(id) = self.media.of(vertex.material)
                 && self.coverage(&vertex) >= 0.5
@@ -166,7 +166,7 @@ impl Scene {
                 }
             }
             let s = &vertex.surface;
-            ray = Ray::new(offset_origin(s.p, s.p_error, s.ng, ray.d), ray.d);
+            (ray, leaving) = (Ray::new(offset_origin(s.p, s.p_error, s.ng, ray.d), ray.d), vertex.departure);
         }
         left
     }

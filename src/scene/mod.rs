@@ -6,7 +6,7 @@ mod info;
 mod media;
 mod shading;
 
-pub use geometry::{Geometry, Hit};
+pub use geometry::{Departure, Geometry, Hit};
 pub use info::Info;
 pub use media::{Interface, Media};
 pub use shading::Shading;
@@ -20,6 +20,7 @@ use crate::medium::Inside;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
+use geometry::Owner;
 use glam::Vec3;
 
 /// A compiled scene.
@@ -73,6 +74,20 @@ pub struct Vertex {
     pub light: Option<u32>,
     /// The ray came from the side of the geometric normal.
     pub front: bool,
+    /// Of the rays that leave it.
+    pub departure: Departure,
+}
+
+impl Vertex {
+    /// None yet.
+    pub const NOWHERE: Self = Self {
+        surface: Surface::NOWHERE,
+        wo: Vec3::ZERO,
+        material: 0,
+        light: None,
+        front: false,
+        departure: Departure::NOWHERE,
+    };
 }
 
 impl Scene {
@@ -80,38 +95,69 @@ impl Scene {
     /// 1 − coverage; `u` gives the numbers in [0, 1) that decide.
     #[inline]
     pub fn intersect(&self, ray: &Ray, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
-        self.intersect_from(ray, &mut Inside::default(), u)
+        self.intersect_from(ray, Departure::NOWHERE, &mut Inside::default(), u)
     }
 
-    /// The same for a ray that begins `inside` interiors, and learns of those that it enters and leaves behind surfaces
+    /// The same for a ray that leaves a triangle and begins `inside` interiors, and learns of those that it enters and leaves behind surfaces
     /// that are hidden in others. What is there stays the same all along.
     #[inline]
-    pub fn intersect_from(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
+    pub fn intersect_from(
+        &self,
+        ray: &Ray,
+        leaving: Departure,
+        inside: &mut Inside,
+        u: &mut impl FnMut() -> f32,
+    ) -> Option<Vertex> {
+        let mut vertex = Vertex::NOWHERE;
+        self.meet(ray, leaving, inside, u, &mut vertex).then_some(vertex)
+    }
+
+    /// The same, with the vertex written where the caller has room for it: paths would copy it about.
+    #[inline(always)]
+    pub fn meet(
+        &self,
+        ray: &Ray,
+        leaving: Departure,
+        inside: &mut Inside,
+        u: &mut impl FnMut() -> f32,
+        vertex: &mut Vertex,
+    ) -> bool {
         if self.has_holes || !inside.is_empty() {
-            return self.intersect_seen(ray, inside, u);
+            return self.meet_seen(ray, leaving, inside, u, vertex);
         }
-        let hit = self.geometry.nearest(ray)?;
-        Some(self.vertex(ray, &hit))
+        let Some(hit) = self.geometry.nearest(ray, leaving) else { return false };
+        match self.geometry.plain_surface(&hit) {
+            Some((surface, owner)) => *vertex = self.vertex_of(ray, &hit, surface, owner),
+            None => self.put_vertex(ray, &hit, vertex),
+        }
+        true
     }
 
     /// The same where not everything that is met is seen.
     #[inline(never)]
-    fn intersect_seen(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
+    fn meet_seen(
+        &self,
+        ray: &Ray,
+        mut leaving: Departure,
+        inside: &mut Inside,
+        u: &mut impl FnMut() -> f32,
+        vertex: &mut Vertex,
+    ) -> bool {
         let mut ray = *ray;
-        loop {
-            let hit = self.geometry.nearest(&ray)?;
-            let vertex = self.vertex(&ray, &hit);
-            match self.media.hidden(inside, &vertex) {
+        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
+            self.put_vertex(&ray, &hit, vertex);
+            match self.media.hidden(inside, vertex) {
                 Some(across) => *inside = across,
                 None => {
-                    let coverage = self.coverage(&vertex);
+                    let coverage = self.coverage(vertex);
                     if coverage >= 1.0 || u() < coverage {
-                        return Some(vertex);
+                        return true;
                     }
                 }
             }
-            ray = self.beyond(&ray, &vertex);
+            (ray, leaving) = (self.beyond(&ray, vertex), vertex.departure);
         }
+        false
     }
 
     /// How much of the light arrives at `vertex`, on its side where the interiors are `inside`: nothing or all, or
@@ -123,10 +169,10 @@ impl Scene {
         let mut ray = Ray { o, d: light.wi, t_max: light.distance };
         let looks_through = self.has_sheets && most_sheets > 0;
         if !self.has_holes && !looks_through && inside.is_empty() {
-            return if self.geometry.occluded(&ray) { Seen::NOTHING } else { Seen::ALL };
+            return if self.geometry.occluded(&ray, vertex.departure) { Seen::NOTHING } else { Seen::ALL };
         }
-        let (mut seen, mut inside) = (Seen::ALL, inside.clone());
-        while let Some(hit) = self.geometry.nearest(&ray) {
+        let (mut seen, mut inside, mut leaving) = (Seen::ALL, inside.clone(), vertex.departure);
+        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
             let vertex = self.vertex(&ray, &hit);
             match self.media.hidden(&inside, &vertex) {
                 None => {
@@ -141,7 +187,7 @@ impl Scene {
                 }
                 Some(across) => inside = across,
             }
-            ray = self.beyond(&ray, &vertex);
+            (ray, leaving) = (self.beyond(&ray, &vertex), vertex.departure);
             if ray.t_max <= 0.0 {
                 break;
             }
@@ -186,12 +232,22 @@ impl Scene {
         &self.info
     }
 
-    #[inline(always)]
     fn vertex(&self, ray: &Ray, hit: &Hit) -> Vertex {
         let (surface, owner) = self.geometry.surface(ray, hit);
+        self.vertex_of(ray, hit, surface, owner)
+    }
+
+    #[inline(never)]
+    fn put_vertex(&self, ray: &Ray, hit: &Hit, vertex: &mut Vertex) {
+        *vertex = self.vertex(ray, hit);
+    }
+
+    #[inline(always)]
+    fn vertex_of(&self, ray: &Ray, hit: &Hit, surface: Surface, owner: Owner) -> Vertex {
         let wo = -ray.d;
         let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
-        Vertex { surface, wo, material: owner.material, light, front: wo.dot(surface.ng) > 0.0 }
+        let front = wo.dot(surface.ng) > 0.0;
+        Vertex { surface, wo, material: owner.material, light, front, departure: hit.departure() }
     }
 
     fn coverage(&self, vertex: &Vertex) -> f32 {

@@ -39,6 +39,18 @@ pub struct Surface {
 }
 
 impl Surface {
+    /// None yet.
+    pub const NOWHERE: Self = Self {
+        p: Vec3::ZERO,
+        p_error: Vec3::ZERO,
+        ng: Vec3::Z,
+        ns: Vec3::Z,
+        tangent: Vec3::ZERO,
+        handedness: 1.0,
+        uv: [Vec2::ZERO; 2],
+        color: Vec4::ONE,
+    };
+
     /// From object space to the world. The error bound grows by the rounding of the map (PBRT 4th ed., section 6.8.4)
     /// and by that of the way back, so that a ray whose origin was moved out of the world-space box
     /// ([`crate::math::offset_origin`]) is still on its side of the surface after its origin was transformed to object

@@ -1,6 +1,7 @@
 //! Square → disk.
 
 use super::to_unit;
+use crate::math::sin_cos_of_eighth;
 use glam::Vec2;
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
@@ -12,17 +13,13 @@ pub const UNIFORM_DISK_PDF: f32 = FRAC_1_PI;
 #[inline]
 pub fn uniform_disk(u: [f32; 2]) -> Vec2 {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    if a == 0.0 && b == 0.0 {
-        return Vec2::ZERO;
-    }
     // In the wedge about ±x the radius is a and the angle π/4 b/a; the wedge about ±y is its mirror image.
-    if a.abs() > b.abs() {
-        let (sin, cos) = (FRAC_PI_4 * (b / a)).sin_cos();
-        Vec2::new(a * cos, a * sin)
-    } else {
-        let (sin, cos) = (FRAC_PI_4 * (a / b)).sin_cos();
-        Vec2::new(b * sin, b * cos)
-    }
+    let about_x = a.abs() > b.abs();
+    let (r, other) = if about_x { (a, b) } else { (b, a) };
+    let quotient = if r == 0.0 { 0.0 } else { other / r };
+    let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * quotient);
+    let (x, y) = if about_x { (cos, sin) } else { (sin, cos) };
+    Vec2::new(r * x, r * y)
 }
 
 /// Inverse of [`uniform_disk`].

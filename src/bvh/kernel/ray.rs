@@ -1,12 +1,17 @@
 //! A ray prepared for slabs and triangles.
 
 use crate::bvh::node::TriangleLeaf;
+use crate::bvh::triangles::Slot;
 use crate::math::Ray;
 use glam::{DVec3, Vec3A};
 
 /// Widening of a slab's far side: 1 + 2 γ₃ (Ize 2013, "Robust BVH Ray Traversal") and the rounding of its product with
 /// 1/d, rounded up.
 const FAR: f32 = 1.0 + 5e-7;
+
+/// The other two axes for each third one and the sign of the direction along it: swapping them keeps the winding of
+/// triangles.
+const OTHERS: [[usize; 2]; 6] = [[1, 2], [2, 1], [2, 0], [0, 2], [0, 1], [1, 0]];
 
 /// A ray with what every box and triangle test of it shares.
 #[derive(Clone, Copy, Debug)]
@@ -24,17 +29,21 @@ pub(in crate::bvh) struct KernelRay {
     /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
     pub(in crate::bvh) shear: [f32; 3],
     pub(in crate::bvh) t_max: f32,
+    /// Leaf that holds the triangle which the ray leaves, and the bit of its lane.
+    pub(in crate::bvh) own_leaf: u32,
+    pub(in crate::bvh) own_lane: u32,
 }
 
 impl KernelRay {
     #[inline]
-    pub(in crate::bvh) fn new(ray: &Ray) -> Self {
+    pub(in crate::bvh) fn new(ray: &Ray, leaving: Slot) -> Self {
+        let (own_leaf, own_lane) = leaving.place();
         let Ray { o, d, t_max } = *ray;
         let minus_d_inv = -Vec3A::from(d).recip();
-        let kz = d.abs().max_position();
-        let (kx, ky) = ((kz + 1) % 3, (kz + 2) % 3);
-        // Swapping keeps the winding of triangles.
-        let (kx, ky) = if d[kz] < 0.0 { (ky, kx) } else { (kx, ky) };
+        // Without branches, which random directions would make the processor guess wrong.
+        let size = d.abs();
+        let kz = if size.z > size.x.max(size.y) { 2 } else { usize::from(size.y > size.x) };
+        let [kx, ky] = OTHERS[2 * kz + (d[kz].to_bits() >> 31) as usize];
         Self {
             o: o.to_array(),
             d: d.to_array(),
@@ -44,6 +53,8 @@ impl KernelRay {
             axes: [kx, ky, kz],
             shear: [d[kx] * -minus_d_inv[kz], d[ky] * -minus_d_inv[kz], minus_d_inv[kz]],
             t_max,
+            own_leaf: own_leaf as u32,
+            own_lane: 1 << own_lane,
         }
     }
 

@@ -5,7 +5,7 @@ macro_rules! kernels {
     ($(#[$isa:meta])?) => {
         use super::{Entry, KernelRay, Stack};
         use crate::bvh::node::{LEAF, NONE, Node, TriangleLeaf, WIDTH};
-        use crate::bvh::triangles::TriangleHit;
+        use crate::bvh::triangles::{Slot, TriangleHit};
 
         /// γ₂, γ₃ and γ₅ (`math::gamma`).
         const G2: Factor = Factor(crate::math::gamma(2));
@@ -59,7 +59,14 @@ macro_rules! kernels {
         /// in registers.
         #[inline]
         $(#[$isa])?
-        fn triangles<const NEAREST: bool>(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32) -> (u32, [Lanes; 4]) {
+        fn triangles<const NEAREST: bool>(
+            leaves: &[TriangleLeaf],
+            index: u32,
+            ray: &KernelRay,
+            t_max: f32,
+        ) -> (u32, [Lanes; 4]) {
+            let leaf = &leaves[index as usize];
+            let others = if index == ray.own_leaf { !ray.own_lane } else { !0 };
             let [kx, ky, kz] = ray.axes;
             let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
             let [sx, sy, sz] = ray.shear;
@@ -86,7 +93,7 @@ macro_rules! kernels {
                 (u, v, w) = (exact(cx, by, cy, bx), exact(ax, cy, ay, cx), exact(bx, ay, by, ax));
                 (candidates, sided) = one_sided(u, v, w);
             }
-            let candidates = candidates & sided;
+            let candidates = candidates & sided & others;
             if candidates == 0 {
                 return (0, [zero; 4]);
             }
@@ -165,8 +172,7 @@ macro_rules! kernels {
             loop {
                 if child & LEAF != 0 {
                     // Keep the nearest triangle of the leaf.
-                    let leaf = &leaves[(child & !LEAF) as usize];
-                    let (mut hits, [t, v, w, det_inv]) = triangles::<true>(leaf, ray, t_max);
+                    let (mut hits, [t, v, w, det_inv]) = triangles::<true>(leaves, child & !LEAF, ray, t_max);
                     if hits != 0 {
                         let [t, v, w, det_inv] = [t.to_array(), v.to_array(), w.to_array(), det_inv.to_array()];
                         while hits != 0 {
@@ -179,7 +185,7 @@ macro_rules! kernels {
                                     u: v[lane] * det_inv[lane],
                                     v: w[lane] * det_inv[lane],
                                     triangle: NONE,
-                                    slot: (child & !LEAF) * WIDTH as u32 + lane as u32,
+                                    slot: Slot::new(child & !LEAF, lane as u32),
                                 };
                                 found = true;
                             }
@@ -256,7 +262,7 @@ macro_rules! kernels {
             let mut child = 0;
             loop {
                 if child & LEAF != 0 {
-                    if triangles::<false>(&leaves[(child & !LEAF) as usize], ray, ray.t_max).0 != 0 {
+                    if triangles::<false>(leaves, child & !LEAF, ray, ray.t_max).0 != 0 {
                         return true;
                     }
                 } else {
