@@ -1,5 +1,6 @@
 //! Rays, and origins that leave a surface without meeting it again.
 
+use super::select;
 use glam::Vec3;
 
 /// Half-line `o + t d`, 0 < t < `t_max`. The direction need not be of unit length: instances trace the same `t`.
@@ -33,12 +34,12 @@ impl Ray {
 #[inline]
 pub fn offset_origin(p: Vec3, p_error: Vec3, n: Vec3, w: Vec3) -> Vec3 {
     let d = n.abs().dot(p_error);
-    let offset = if w.dot(n) < 0.0 { -n * d } else { n * d };
+    let offset = n * d.copysign(w.dot(n));
     let q = p + offset;
     // A little more than the distance to the next float; for 0 too.
     let away = |q: f32, o: f32| {
         let step = (q.abs() * f32::EPSILON).max(f32::MIN_POSITIVE).copysign(o);
-        if o == 0.0 { q } else { q + step }
+        q + select(o == 0.0, 0.0, step)
     };
     Vec3::new(away(q.x, offset.x), away(q.y, offset.y), away(q.z, offset.z))
 }

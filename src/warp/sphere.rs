@@ -1,6 +1,7 @@
 //! Square → directions. All build on the concentric disk: with r² uniform on [0, 1), 1 − cos θ = k r² is uniform on
 //! the cap (Archimedes), and sin θ = √((1 − cos θ)(1 + cos θ)) loses nothing near the pole.
 
+use super::disk::disk_polar;
 use super::{to_unit, uniform_disk, uniform_disk_inverse};
 use crate::math::safe_sqrt;
 use glam::{Vec2, Vec3};
@@ -15,8 +16,8 @@ pub const UNIFORM_SPHERE_PDF: f32 = 0.25 * FRAC_1_PI;
 /// Direction about +z with density cos θ/π: a uniform point of the disk, lifted to the hemisphere (Malley).
 #[inline]
 pub fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
-    let d = uniform_disk(u);
-    d.extend(safe_sqrt(1.0 - d.length_squared()))
+    let (r, direction) = disk_polar(u);
+    (r * direction).extend(safe_sqrt(1.0 - r * r))
 }
 
 /// Density of [`cosine_hemisphere`] \[1/sr\]; 0 below the horizon.

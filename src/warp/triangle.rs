@@ -7,13 +7,9 @@ use super::to_unit;
 /// (Heitz 2019, "A Low-Distortion Map Between Triangle and Square").
 #[inline]
 pub fn uniform_triangle(u: [f32; 2]) -> [f32; 3] {
-    let (b0, b1) = if u[0] < u[1] {
-        let b0 = 0.5 * u[0];
-        (b0, u[1] - b0)
-    } else {
-        let b1 = 0.5 * u[1];
-        (u[0] - b1, b1)
-    };
+    // Either half loses half of the lesser coordinate from both.
+    let half = 0.5 * u[0].min(u[1]);
+    let (b0, b1) = (u[0] - half, u[1] - half);
     [b0, b1, 1.0 - b0 - b1]
 }
 

@@ -38,21 +38,25 @@ impl KernelRay {
     #[inline]
     pub(in crate::bvh) fn new(ray: &Ray, leaving: Slot) -> Self {
         let (own_leaf, own_lane) = leaving.place();
-        let Ray { o, d, t_max } = *ray;
-        let minus_d_inv = -Vec3A::from(d).recip();
-        // Without branches, which random directions would make the processor guess wrong.
-        let size = d.abs();
-        let kz = if size.z > size.x.max(size.y) { 2 } else { usize::from(size.y > size.x) };
-        let [kx, ky] = OTHERS[2 * kz + (d[kz].to_bits() >> 31) as usize];
+        let minus_d_inv = -Vec3A::from(ray.d).recip();
+        let minus_d_inv_far = (minus_d_inv * FAR).to_array();
+        let (d, minus_d_inv) = (ray.d.to_array(), minus_d_inv.to_array());
+        // In integers and look-ups: branches on random directions would be guessed wrong. Sizes are ordered as their bits.
+        let bits = d.map(f32::to_bits);
+        let [x, y, z] = bits.map(|bits| bits & 0x7fff_ffff);
+        let beyond_both = usize::from(z > x.max(y));
+        let kz = beyond_both << 1 | (usize::from(y > x) & !beyond_both);
+        let [kx, ky] = OTHERS[2 * kz + (bits[kz] >> 31) as usize];
+        let d_inv = -minus_d_inv[kz];
         Self {
-            o: o.to_array(),
-            d: d.to_array(),
-            minus_d_inv: minus_d_inv.to_array(),
-            minus_d_inv_far: (minus_d_inv * FAR).to_array(),
-            near: std::array::from_fn(|axis| 2 * axis + (d[axis].to_bits() >> 31) as usize),
+            o: ray.o.to_array(),
+            d,
+            minus_d_inv,
+            minus_d_inv_far,
+            near: std::array::from_fn(|axis| 2 * axis + (bits[axis] >> 31) as usize),
             axes: [kx, ky, kz],
-            shear: [d[kx] * -minus_d_inv[kz], d[ky] * -minus_d_inv[kz], minus_d_inv[kz]],
-            t_max,
+            shear: [d[kx] * d_inv, d[ky] * d_inv, -d_inv],
+            t_max: ray.t_max,
             own_leaf: own_leaf as u32,
             own_lane: 1 << own_lane,
         }
