@@ -21,6 +21,8 @@ pub struct Camera {
     rotation: Mat3,
     /// Width and height of the film in pixels.
     size: Vec2,
+    /// From pixels to −1 … 1 across the window, y up.
+    to_window: Vec2,
     kind: Kind,
 }
 
@@ -69,6 +71,7 @@ impl Camera {
             origin: camera.to_world.w_axis.truncate(),
             rotation: Mat3::from_cols(axis(0), axis(1), axis(2)),
             size,
+            to_window: Vec2::new(2.0, -2.0) / size,
             kind,
         }
     }
@@ -88,10 +91,11 @@ impl Camera {
     /// aperture where there is one.
     #[inline]
     pub fn ray(&self, film: Vec2, lens: [f32; 2]) -> Ray {
-        // From −1 to 1 across the window, y up.
-        let window = (2.0 * film / self.size - 1.0) * Vec2::new(1.0, -1.0);
+        let window = film * self.to_window + Vec2::new(-1.0, 1.0);
         let (o, d) = match self.kind {
-            Kind::Pinhole { half } => (Vec3::ZERO, (window * half).extend(-1.0)),
+            Kind::Pinhole { half } => {
+                return Ray::new(self.origin, (self.rotation * (window * half).extend(-1.0)).normalize());
+            }
             Kind::ThinLens { half, lens: Lens { radius, focus_distance } } => {
                 // All rays of a film point meet where its chief ray crosses the plane in focus.
                 let aperture = (radius * uniform_disk(lens)).extend(0.0);

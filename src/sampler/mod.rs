@@ -62,8 +62,17 @@ impl Sampler {
     }
 
     /// The pair at this dimension and the next, well spread together; goes on by two.
-    #[inline]
+    #[inline(always)]
     pub fn next_2d(&mut self) -> [f32; 2] {
+        match self {
+            Self::Lattice(s) => s.next_2d(),
+            other => other.next_2d_elsewhere(),
+        }
+    }
+
+    /// The same of all but lattices: apart from these, which are computed in place.
+    #[inline(never)]
+    fn next_2d_elsewhere(&mut self) -> [f32; 2] {
         match self {
             Self::Independent(s) => s.next_2d(),
             Self::Sobol(s) => s.next_2d(),

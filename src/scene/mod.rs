@@ -208,7 +208,7 @@ impl Scene {
 
     /// Frame, lobes and local `wo` at a vertex between the media of `interface`, of `lane` where the path has chosen
     /// one; `scratch` holds lobes that vary over the surface.
-    #[inline]
+    #[inline(always)]
     pub fn shade<'a>(
         &'a self,
         vertex: &Vertex,
