@@ -3,7 +3,7 @@
 use super::Aabb;
 use super::build::{Quality, build};
 use super::fragments::split;
-use super::kernel::{self, Isa, KernelRay};
+use super::kernel::{self, Isa, PreparedRay};
 use super::node::{NONE, Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
@@ -114,11 +114,16 @@ impl TriangleBvh {
     }
 
     /// The nearest hit in (0, `ray.t_max`) of a ray that leaves the triangle at `leaving`.
-    #[inline(always)]
+    #[inline]
     pub fn nearest(&self, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
+        self.nearest_prepared(&PreparedRay::new(ray, leaving))
+    }
+
+    /// The same of a ray that is prepared already.
+    #[inline(always)]
+    pub fn nearest_prepared(&self, ray: &PreparedRay) -> Option<TriangleHit> {
         let mut hit = TriangleHit::default();
-        let found = !self.nodes.is_empty()
-            && kernel::nearest(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray, leaving), &mut hit);
+        let found = !self.nodes.is_empty() && kernel::nearest(self.isa, &self.nodes, &self.leaves, ray, &mut hit);
         if !found {
             return None;
         }
@@ -128,9 +133,15 @@ impl TriangleBvh {
     }
 
     /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
-    #[inline(always)]
+    #[inline]
     pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
-        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, &KernelRay::new(ray, leaving))
+        self.occluded_prepared(&PreparedRay::new(ray, leaving))
+    }
+
+    /// The same of a ray that is prepared already.
+    #[inline(always)]
+    pub fn occluded_prepared(&self, ray: &PreparedRay) -> bool {
+        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray)
     }
 
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.

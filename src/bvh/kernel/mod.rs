@@ -19,7 +19,7 @@ mod stack;
 mod traverse;
 
 pub(super) use pages::with_capacity;
-pub(super) use ray::KernelRay;
+pub use ray::PreparedRay;
 pub(super) use stack::{Entry, Stack};
 
 use super::node::{Node, TriangleLeaf, WIDTH};
@@ -94,7 +94,7 @@ pub(super) fn nearest(
     isa: Isa,
     nodes: &[Node],
     leaves: &[TriangleLeaf],
-    ray: &KernelRay,
+    ray: &PreparedRay,
     hit: &mut TriangleHit,
 ) -> bool {
     match isa {
@@ -110,7 +110,7 @@ pub(super) fn nearest(
 
 /// Whether anything is hit before `ray.t_max`.
 #[inline]
-pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
+pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
@@ -124,7 +124,7 @@ pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &
 
 /// Lanes of a node whose box the ray may meet before `t_max`, a bit each, and where it enters them.
 #[inline]
-pub(super) fn enter(isa: Isa, node: &Node, ray: &KernelRay, t_max: f32) -> (u32, [f32; WIDTH]) {
+pub(super) fn enter(isa: Isa, node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, [f32; WIDTH]) {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.

@@ -15,7 +15,7 @@ const OTHERS: [[usize; 2]; 6] = [[1, 2], [2, 1], [2, 0], [0, 2], [0, 1], [1, 0]]
 
 /// A ray with what every box and triangle test of it shares.
 #[derive(Clone, Copy, Debug)]
-pub(in crate::bvh) struct KernelRay {
+pub struct PreparedRay {
     pub(in crate::bvh) o: [f32; 3],
     pub(in crate::bvh) d: [f32; 3],
     /// −1/d.
@@ -34,9 +34,10 @@ pub(in crate::bvh) struct KernelRay {
     pub(in crate::bvh) own_lane: u32,
 }
 
-impl KernelRay {
+impl PreparedRay {
+    /// Of a ray that leaves the triangle at `leaving` of the tree that it is traced in first.
     #[inline]
-    pub(in crate::bvh) fn new(ray: &Ray, leaving: Slot) -> Self {
+    pub fn new(ray: &Ray, leaving: Slot) -> Self {
         let (own_leaf, own_lane) = leaving.place();
         let minus_d_inv = -Vec3A::from(ray.d).recip();
         let minus_d_inv_far = (minus_d_inv * FAR).to_array();

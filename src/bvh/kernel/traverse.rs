@@ -3,7 +3,7 @@
 /// `nearest` and `occluded` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
-        use super::{Entry, KernelRay, Stack};
+        use super::{Entry, PreparedRay, Stack};
         use crate::bvh::node::{LEAF, NONE, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::{Slot, TriangleHit};
 
@@ -26,7 +26,7 @@ macro_rules! kernels {
         /// Lanes whose box the ray meets before `t_max`, and where it enters them.
         #[inline]
         $(#[$isa])?
-        fn boxes(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, Lanes) {
+        fn boxes(node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, Lanes) {
             // (o − plane) · (−1/d): subtracted from a register, planes need no load of their own.
             let slab = |axis: usize, plane: usize, d_inv: f32| {
                 Lanes::splat(ray.o[axis]).sub(Lanes::load(&node.planes[plane & 7])).mul(Lanes::splat(d_inv))
@@ -43,7 +43,7 @@ macro_rules! kernels {
 
         /// Boxes that are met; see [`super::enter`].
         $(#[$isa])?
-        pub(super) fn enter(node: &Node, ray: &KernelRay, t_max: f32) -> (u32, [f32; WIDTH]) {
+        pub(super) fn enter(node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, [f32; WIDTH]) {
             let (met, near) = boxes(node, ray, t_max);
             (met, near.to_array())
         }
@@ -62,7 +62,7 @@ macro_rules! kernels {
         fn triangles<const NEAREST: bool>(
             leaves: &[TriangleLeaf],
             index: u32,
-            ray: &KernelRay,
+            ray: &PreparedRay,
             t_max: f32,
         ) -> (u32, [Lanes; 4]) {
             let leaf = &leaves[index as usize];
@@ -138,7 +138,7 @@ macro_rules! kernels {
         #[cold]
         #[inline(never)]
         $(#[$isa])?
-        fn decide(leaf: &TriangleLeaf, ray: &KernelRay, t_max: f32, mut doubtful: u32, t: Lanes) -> (u32, Lanes) {
+        fn decide(leaf: &TriangleLeaf, ray: &PreparedRay, t_max: f32, mut doubtful: u32, t: Lanes) -> (u32, Lanes) {
             let (mut hits, mut exact) = (0, t.to_array());
             while doubtful != 0 {
                 let lane = doubtful.trailing_zeros() as usize & 7;
@@ -164,7 +164,7 @@ macro_rules! kernels {
 
         /// Nearest hit; see [`super::nearest`].
         $(#[$isa])?
-        pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay, hit: &mut TriangleHit) -> bool {
+        pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay, hit: &mut TriangleHit) -> bool {
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
@@ -257,7 +257,7 @@ macro_rules! kernels {
 
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
-        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &KernelRay) -> bool {
+        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay) -> bool {
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut child = 0;
             loop {
