@@ -143,6 +143,14 @@ impl CoupledDiffuse {
         Self { scaled, average, ..*self }
     }
 
+    pub(super) fn energy_mut(&mut self) -> Option<&mut Slice> {
+        self.coat.energy.as_mut()
+    }
+
+    pub(super) fn is_anisotropic(&self) -> bool {
+        self.coat.energy.is_some_and(|energy| energy.is_anisotropic())
+    }
+
     /// f \[1/sr\] for directions on the same side.
     #[inline]
     pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {

@@ -2,6 +2,7 @@
 
 use super::beckmann::Beckmann;
 use super::diffuse_transmission::DiffuseTransmission;
+use super::energy::Slice;
 use super::eon::Eon;
 use super::filmed_dielectric::{FilmedDielectric, RoughFilmedDielectric};
 use super::lambert::{CoupledDiffuse, Lambert, sample_cosine};
@@ -85,6 +86,41 @@ impl Lobe {
                 | Self::RoughDielectric(_)
                 | Self::RoughFilmedDielectric(_)
         )
+    }
+
+    /// Looks up once what is asked for about `wo` again and again: at a hit. `known` is such a lobe, and becomes this one.
+    #[inline]
+    pub(super) fn look_from(&mut self, wo: Vec3, known: &mut Option<Slice>) {
+        let slice = match self {
+            Self::RoughReflection(l) => Some(l.energy_mut()),
+            Self::CoupledDiffuse(l) => l.energy_mut(),
+            _ => None,
+        };
+        if let Some(slice) = slice {
+            slice.look_from(wo, known.as_ref());
+            *known = Some(*slice);
+        }
+    }
+
+    /// It scatters otherwise where it is turned about the normal.
+    pub fn is_anisotropic(&self) -> bool {
+        match self {
+            Self::RoughReflection(l) => l.micro().energy().is_anisotropic(),
+            Self::CookTorrance(l) => l.micro().energy().is_anisotropic(),
+            Self::RoughThin(l) => l.is_anisotropic(),
+            Self::CoupledDiffuse(l) => l.is_anisotropic(),
+            Self::DiffuseTransmission(l) => l.base.is_anisotropic(),
+            Self::RoughDielectric(l) => l.is_anisotropic(),
+            Self::RoughFilmedDielectric(l) => l.ggx.ax != l.ggx.ay,
+            Self::Lambert(_)
+            | Self::Eon(_)
+            | Self::Mirror(_)
+            | Self::SmoothDielectric(_)
+            | Self::ThinTransmission(_)
+            | Self::Phong(_)
+            | Self::Sheen(_)
+            | Self::FilmedDielectric(_) => false,
+        }
     }
 
     /// f \[1/sr\] and density \[1/sr\] of `wi` among the draws of this lobe; 0 for deltas.

@@ -1,5 +1,6 @@
 //! A BSDF: the sum of its lobes, and one choice among them.
 
+use super::energy::Slice;
 use super::entry::{Entry, Layers, MAX_LAYERS, Transmitted, transmitted};
 use super::lambert::sample_cosine;
 use super::{Class, Eval, Ggx, Layer, Lobe, Pdf, Sample, Transport};
@@ -29,6 +30,14 @@ pub struct Bsdf {
     /// Some lobe is no delta; some other than a delta lets light through.
     smooth: bool,
     transmits: bool,
+    /// Energies of the direction that it is looked at from, last found.
+    known: Option<Slice>,
+}
+
+/// A weight that is never missed.
+#[inline]
+fn heavier(weight: f32) -> f32 {
+    if weight > 1e-4 { weight } else { 1e-4 }
 }
 
 impl Bsdf {
@@ -43,7 +52,7 @@ impl Bsdf {
         self.entries.clear();
         self.layers.clear();
         self.total = 0.0;
-        (self.lambert, self.smooth, self.transmits) = (None, false, false);
+        (self.lambert, self.smooth, self.transmits, self.known) = (None, false, false, None);
     }
 
     /// One lobe.
@@ -72,28 +81,46 @@ impl Bsdf {
         if scale.is_nan() || scale <= 0.0 || self.entries.is_full() {
             return false;
         }
-        let weight = if weight > 1e-4 { weight } else { 1e-4 };
+        let weight = heavier(weight);
         self.total += weight;
+        self.entries.push(entry.weighing(weight));
+        self.note_last();
+        true
+    }
+
+    /// Notes what the last entry is.
+    #[inline]
+    fn note_last(&mut self) {
+        let Some(entry) = self.entries.last() else { return };
         self.lambert = match &entry.lobe {
-            Lobe::Lambert(l) if self.entries.is_empty() && entry.is_plain() => Some(l.reflectance * scale),
+            Lobe::Lambert(l) if self.entries.len() == 1 && entry.is_plain() => Some(l.reflectance * entry.scale),
             _ => None,
         };
         self.smooth |= !entry.lobe.is_delta();
         self.transmits |= entry.lobe.transmits();
-        self.entries.push(entry.weighing(weight));
-        true
     }
 
-    /// Adds `scale` times a lobe, chosen in proportion to about the energy that it scatters of light along `wo`.
+    /// Adds `scale` times a lobe, chosen in proportion to about the energy that it scatters of light along `wo`, which is
+    /// where the BSDF will be looked at from.
     pub fn push_by_albedo(&mut self, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
         self.push_by_albedo_in(None, lobe, scale, wo)
     }
 
     /// The same with the lobe in a frame of its own, where there is one.
     pub fn push_by_albedo_in(&mut self, frame: Option<Frame>, lobe: Lobe, scale: f32, wo: Vec3) -> bool {
-        let albedo = lobe.importance(frame.map_or(wo, |frame| frame.to_local(wo)));
-        let weight = scale * albedo.luminance().max(0.25 * albedo.max_element());
-        self.push_entry(Entry::new(lobe, frame, scale, weight))
+        if scale.is_nan() || scale <= 0.0 || self.entries.is_full() {
+            return false;
+        }
+        // In its place first: lobes are large.
+        self.entries.push(Entry::new(lobe, frame, scale, 0.0));
+        let Some(entry) = self.entries.last_mut() else { return false };
+        let wo = frame.map_or(wo, |frame| frame.to_local(wo));
+        entry.lobe.look_from(wo, &mut self.known);
+        let albedo = entry.lobe.importance(wo);
+        entry.weight = heavier(scale * albedo.luminance().max(0.25 * albedo.max_element()));
+        self.total += entry.weight;
+        self.note_last();
+        true
     }
 
     /// Number of lobes.
@@ -268,6 +295,11 @@ impl Bsdf {
             }
         }
         sum
+    }
+
+    /// Some lobe scatters otherwise where it is turned about the normal.
+    pub fn is_anisotropic(&self) -> bool {
+        self.entries.iter().any(|e| e.frame.is_some() || e.lobe.is_anisotropic())
     }
 
     /// Some lobe is a hundred times as long as it is wide, or more, and hardly wider than a mirror's: as a function it can be

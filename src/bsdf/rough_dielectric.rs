@@ -113,6 +113,10 @@ impl RoughDielectric {
         if wo.z * wi.z > 0.0 { 1.0 } else { self.sides(wo).2 }
     }
 
+    pub(super) fn is_anisotropic(&self) -> bool {
+        self.ggx.ax != self.ggx.ay
+    }
+
     /// Directional albedo, both sides together.
     pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
         let (own, _, _) = self.sides(wo);

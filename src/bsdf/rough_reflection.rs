@@ -117,6 +117,10 @@ impl<M: Microsurface> RoughReflection<M> {
         &self.micro
     }
 
+    pub(super) fn energy_mut(&mut self) -> &mut Slice {
+        &mut self.micro.energy
+    }
+
     /// Microsurface of this material.
     pub fn new(micro: Micro<M>, fresnel: Fresnel) -> Self {
         Self::with(micro, fresnel, multiple_scattering(fresnel.average(), micro.energy.mean.loss))
@@ -218,6 +222,10 @@ impl RoughThin {
     #[inline]
     pub fn new(coat: RoughReflection, tint: Spectrum) -> Self {
         Self { coat, tint }
+    }
+
+    pub(super) fn is_anisotropic(&self) -> bool {
+        self.coat.micro.energy.is_anisotropic()
     }
 
     /// Directional albedo.

@@ -48,13 +48,9 @@ pub struct Mesh {
 }
 
 impl Mesh {
-    /// Its vertices carry more than their positions.
-    #[inline]
-    pub fn has_attributes(&self) -> bool {
-        !(self.normals.is_empty()
-            && self.tangents.is_empty()
-            && self.uv.iter().all(Vec::is_empty)
-            && self.colors.is_empty())
+    /// Its vertices carry something that textures are placed by: coordinates, tangents, or colours.
+    pub fn has_chart(&self) -> bool {
+        !(self.tangents.is_empty() && self.uv.iter().all(Vec::is_empty) && self.colors.is_empty())
     }
 }
 

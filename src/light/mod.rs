@@ -197,7 +197,7 @@ impl Light {
             Self::Triangle(light) => light.intersect(ray),
             Self::Quadric(light) => {
                 let t = light.shape.intersect(ray)?;
-                Some((t, light.shape.surface(ray, t)))
+                Some((t, light.shape.surface(ray, t, true)))
             }
             Self::Point(_)
             | Self::Spot(_)

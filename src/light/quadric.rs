@@ -59,7 +59,7 @@ impl QuadricLight {
             None => (self.shape.quadric.sample_area(u), None),
         };
 
-        let surface = self.shape.surface_at(&point);
+        let surface = self.shape.surface_at(&point, !self.emitter.is_uniform());
         let sight = Sight::new(reference, surface.p, surface.ng)?;
         let area_pdf = || (1.0 / (self.shape.quadric.area() * self.shape.area_scale(point.n))) as f32;
         let pdf = cone_pdf.unwrap_or_else(|| sight.solid_angle_pdf(area_pdf()));
@@ -99,7 +99,7 @@ impl QuadricLight {
             Quadric::Disk { .. } => {
                 let both = self.emitter.emits(false);
                 let sides = if both { 2.0 } else { 1.0 };
-                let normal = self.shape.surface_at(&self.shape.quadric.sample_area([0.5; 2])).ng;
+                let normal = self.shape.surface_at(&self.shape.quadric.sample_area([0.5; 2]), false).ng;
                 LightBounds::flat(min, max, normal, flux / (sides * PI), both)
             }
             Quadric::Sphere { .. } | Quadric::Cylinder { .. } => LightBounds::round(min, max, flux / (4.0 * PI)),

@@ -200,6 +200,23 @@ impl Material {
         }
     }
 
+    /// It looks at texture coordinates, tangents or vertex colours: something varies over the surface, or has a direction.
+    pub fn is_charted(&self) -> bool {
+        let part = |part: &Part| match part {
+            Part::Fixed(lobes) => lobes.iter().any(|(lobe, _)| lobe.is_anisotropic()),
+            _ => true,
+        };
+        let scatters = match &self.scattering {
+            Scattering::Absorb => false,
+            Scattering::Single(bsdf) => bsdf.is_anisotropic(),
+            Scattering::Sum(parts) => parts.iter().any(|(_, p)| part(p)),
+        };
+        let emits = self
+            .emission
+            .is_some_and(|e| !param::is_constant(&e.radiance) || e.coat.is_some_and(|coat| coat.texture.is_some()));
+        scatters || emits || self.normal_map.is_some() || self.has_holes()
+    }
+
     /// It may be looked through ([`Bsdf::straight`]): some of it is a smooth thin sheet.
     #[inline]
     pub fn is_sheet(&self) -> bool {

@@ -36,7 +36,8 @@ impl Scene {
         for object in &desc.objects {
             builder.place(object)?;
         }
-        let Builder { materials, parts, prototypes, instances, quadrics, emitters, mut lights, .. } = builder;
+        builder.chart();
+        let Builder { compiled, parts, prototypes, instances, quadrics, emitters, materials, mut lights, .. } = builder;
         let geometry = Geometry::new(parts, prototypes, instances, quadrics, quality);
 
         // Lights without a surface.
@@ -52,7 +53,6 @@ impl Scene {
         };
         let lights = Lights::new(lights, (center, radius), &textures);
 
-        let compiled: Vec<Material> = materials.iter().map(Material::compile).collect();
         let [stored_triangles, triangles, instances, quadrics] = geometry.counts();
         let [mesh_bytes, bvh_bytes] = geometry.memory();
         let info = Info {
@@ -89,6 +89,8 @@ struct Builder<'a> {
     quality: Quality,
     /// Materials as written, then those of objects with an emission of their own.
     materials: Vec<desc::Material>,
+    /// What they become.
+    compiled: Vec<Material>,
     parts: Vec<Part>,
     prototypes: Vec<Prototype>,
     /// Prototype of each shape that is instanced.
@@ -114,6 +116,7 @@ impl<'a> Builder<'a> {
             desc,
             quality,
             materials,
+            compiled: Vec::new(),
             parts: Vec::new(),
             prototypes: Vec::new(),
             prototype_of: vec![None; desc.shapes.len()],
@@ -139,18 +142,18 @@ impl<'a> Builder<'a> {
                 let emitter = emission.map(|emission| {
                     let first = self.emitters.len() as u32;
                     for triangle in 0..mesh.indices.len() as u32 {
-                        let (p, attributes) = corners(mesh, triangle);
+                        let (p, attributes) = corners(mesh, triangle, true);
                         let p = p.map(|p| transform.to_world.transform_point3(p));
                         let light = TriangleLight::new(p, &attributes, flip, &emission);
                         self.emit(light.map(Light::Triangle));
                     }
                     first
                 });
-                let owner = Owner { material, emitter };
+                let owner = Owner { material, emitter, charted: true };
                 let uses = self.uses[object.shape];
                 if uses == 1 || uses * mesh.indices.len() <= FEW_TRIANGLES {
                     let mesh = to_world(mesh, &transform);
-                    self.parts.push(Part { plain: !mesh.has_attributes(), mesh, owner, flip });
+                    self.parts.push(Part { plain: false, mesh, owner, flip });
                 } else {
                     let prototype = *self.prototype_of[object.shape].get_or_insert_with(|| {
                         let bvh = TriangleBvh::build(&mesh.positions, &mesh.indices, self.quality);
@@ -167,11 +170,24 @@ impl<'a> Builder<'a> {
                         self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, &emission)))));
                         (self.emitters.len() - 1) as u32
                     });
-                    self.quadrics.push((placed, Owner { material, emitter }));
+                    self.quadrics.push((placed, Owner { material, emitter, charted: true }));
                 }
             }
         }
         Ok(())
+    }
+
+    /// Compiles the materials, and says of everything placed whether its own looks at texture coordinates, tangents and
+    /// colours: to find them takes as long as all else at a hit.
+    fn chart(&mut self) {
+        self.compiled = self.materials.iter().map(Material::compile).collect();
+        let charted = |owner: &Owner| self.compiled[owner.material as usize].is_charted();
+        for part in &mut self.parts {
+            part.owner.charted = charted(&part.owner);
+            part.plain = part.mesh.normals.is_empty() && !(part.owner.charted && part.mesh.has_chart());
+        }
+        self.instances.iter_mut().for_each(|i| i.owner.charted = charted(&i.owner));
+        self.quadrics.iter_mut().for_each(|(_, owner)| owner.charted = charted(owner));
     }
 
     /// Lists an emitter and, where it can emit, its light.

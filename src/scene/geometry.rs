@@ -16,6 +16,8 @@ pub struct Owner {
     pub material: u32,
     /// Place in the scene's list of emitters; of a mesh, that of its first triangle.
     pub emitter: Option<u32>,
+    /// The material looks at texture coordinates, tangents or vertex colours.
+    pub charted: bool,
 }
 
 /// A mesh that stands once, in world space.
@@ -27,7 +29,7 @@ pub struct Part {
     pub owner: Owner,
     /// The front is the side from which the vertices run clockwise.
     pub flip: bool,
-    /// The mesh carries nothing but its positions.
+    /// Nothing counts but the positions.
     pub plain: bool,
 }
 
@@ -241,7 +243,7 @@ impl Geometry {
             let Origin { part, triangle, ng } = self.origin[triangle as usize];
             let part = &self.parts[part as usize];
             let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng);
-            let (p, attributes) = corners(&part.mesh, triangle);
+            let (p, attributes) = corners(&part.mesh, triangle, part.owner.charted);
             let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
             return (surface, part.owner.of_triangle(triangle));
         }
@@ -252,7 +254,7 @@ impl Geometry {
             }
             None => {
                 let (quadric, owner) = &self.quadrics[hit.object as usize - self.instances.len()];
-                (quadric.surface(ray, hit.t), *owner)
+                (quadric.surface(ray, hit.t, owner.charted), *owner)
             }
         }
     }
@@ -325,7 +327,7 @@ impl Instance {
     /// The surface, in the world, of a triangle of the prototype.
     fn surface(&self, mesh: &Mesh, triangle: u32, u: f32, v: f32) -> Surface {
         let m = &self.transform.to_world;
-        let (local, mut attributes) = corners(mesh, triangle);
+        let (local, mut attributes) = corners(mesh, triangle, self.owner.charted);
         let p = local.map(|p| m.transform_point3(p));
         attributes.normals =
             attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero()));
@@ -345,18 +347,18 @@ fn abs(m: &Mat3A) -> Mat3A {
     Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
 }
 
-/// Vertices of a triangle and what they carry.
+/// Vertices of a triangle and what they carry; all but the normals only where it is to be `charted`.
 #[inline]
-pub(super) fn corners(mesh: &Mesh, triangle: u32) -> ([Vec3; 3], TriangleAttributes) {
+pub(super) fn corners(mesh: &Mesh, triangle: u32, charted: bool) -> ([Vec3; 3], TriangleAttributes) {
     let index = mesh.indices[triangle as usize];
     fn pick<T: Copy>(list: &[T], index: [u32; 3]) -> Option<[T; 3]> {
         (!list.is_empty()).then(|| index.map(|i| list[i as usize]))
     }
     let attributes = TriangleAttributes {
         normals: pick(&mesh.normals, index),
-        tangents: pick(&mesh.tangents, index),
-        uv: [pick(&mesh.uv[0], index), pick(&mesh.uv[1], index)],
-        colors: pick(&mesh.colors, index),
+        tangents: if charted { pick(&mesh.tangents, index) } else { None },
+        uv: if charted { [pick(&mesh.uv[0], index), pick(&mesh.uv[1], index)] } else { [None; 2] },
+        colors: if charted { pick(&mesh.colors, index) } else { None },
     };
     (index.map(|i| mesh.positions[i as usize]), attributes)
 }

@@ -8,7 +8,7 @@ mod quadric;
 mod triangle;
 
 pub use placed::PlacedQuadric;
-pub use quadric::{Quadric, QuadricPoint};
+pub use quadric::{Chart, Quadric, QuadricPoint};
 pub use triangle::{
     TriangleAttributes, TriangleHit, flat_surface, interpolate, intersect_triangle, triangle_area, triangle_normal,
     triangle_surface, with_attributes,

@@ -1,6 +1,6 @@
 //! A quadric placed in the world.
 
-use super::{Quadric, QuadricPoint, Surface};
+use super::{Chart, Quadric, QuadricPoint, Surface};
 use crate::math::{Ray, Transform, UNIT_ROUNDOFF};
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
 
@@ -42,14 +42,16 @@ impl PlacedQuadric {
         self.quadric.roots(o, d).into_iter().flatten().filter(|t| *t > t_min).map(|t| t as f32).find(|t| *t < ray.t_max)
     }
 
-    /// The surface where `ray` meets it at `t`, in world space.
-    pub fn surface(&self, ray: &Ray, t: f32) -> Surface {
+    /// The surface where `ray` meets it at `t`, in world space; texture coordinates and tangent only where it is to be
+    /// `charted`, for they take a while.
+    pub fn surface(&self, ray: &Ray, t: f32, charted: bool) -> Surface {
         let (o, d) = self.ray_to_object(ray);
-        self.surface_at(&self.quadric.refine(o, d, f64::from(t)))
+        self.surface_at(&self.quadric.refine(o, d, f64::from(t)), charted)
     }
 
     /// The world-space surface at a point of the quadric.
-    pub fn surface_at(&self, point: &QuadricPoint) -> Surface {
+    pub fn surface_at(&self, point: &QuadricPoint, charted: bool) -> Surface {
+        let chart = if charted { self.quadric.chart(point) } else { Chart::default() };
         let p = self.to_world.transform_point3(point.p);
         let ng = self.normal_to_world(point.n).as_vec3();
         let mirror = if self.transform.mirrors() != self.reversed { -1.0 } else { 1.0 };
@@ -58,9 +60,9 @@ impl PlacedQuadric {
             p_error: self.p_error(point.p, p),
             ng,
             ns: ng,
-            tangent: (self.to_world.matrix3 * point.dpdu).as_vec3(),
+            tangent: (self.to_world.matrix3 * chart.dpdu).as_vec3(),
             handedness: mirror,
-            uv: [point.uv, Vec2::ZERO],
+            uv: [chart.uv, Vec2::ZERO],
             color: Vec4::ONE,
         }
     }

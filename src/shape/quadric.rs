@@ -38,6 +38,11 @@ pub struct QuadricPoint {
     pub p: DVec3,
     /// Unit normal.
     pub n: DVec3,
+}
+
+/// How texture coordinates lie on a quadric, at a point in object space.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Chart {
     /// Texture coordinates in \[0, 1\]²; v grows downwards (sphere and cylinder: towards −z, disk: towards −y).
     pub uv: Vec2,
     /// ∂p/∂u; 0 at the poles of a sphere.
@@ -121,16 +126,16 @@ impl Quadric {
     /// The surface where an object-space ray meets it at `t`.
     pub fn surface(&self, o: Vec3, d: Vec3, t: f32) -> Surface {
         let point = self.refine(o.as_dvec3(), d.as_dvec3(), f64::from(t));
-        let (p, n) = (point.p.as_vec3(), point.n.as_vec3());
+        let (p, n, chart) = (point.p.as_vec3(), point.n.as_vec3(), self.chart(&point));
         Surface {
             p,
             // One rounding to f32; what f64 lost before it is covered by the doubling.
             p_error: p.abs() * (2.0 * UNIT_ROUNDOFF),
             ng: n,
             ns: n,
-            tangent: point.dpdu.as_vec3(),
+            tangent: chart.dpdu.as_vec3(),
             handedness: 1.0,
-            uv: [point.uv, Vec2::ZERO],
+            uv: [chart.uv, Vec2::ZERO],
             color: Vec4::ONE,
         }
     }
@@ -140,34 +145,34 @@ impl Quadric {
         match *self {
             Self::Sphere { radius } => {
                 let n = p.try_normalize().unwrap_or(DVec3::Z);
+                QuadricPoint { p: n * f64::from(radius), n }
+            }
+            Self::Disk { .. } => QuadricPoint { p: p.with_z(0.0), n: DVec3::Z },
+            Self::Cylinder { radius, height } => {
+                let n = p.truncate().try_normalize().unwrap_or(DVec2::X);
+                let z = p.z.clamp(0.0, f64::from(height));
+                QuadricPoint { p: (n * f64::from(radius)).extend(z), n: n.extend(0.0) }
+            }
+        }
+    }
+
+    /// Texture coordinates and their tangent at a point of the quadric.
+    pub fn chart(&self, &QuadricPoint { p, n }: &QuadricPoint) -> Chart {
+        let around = |radius: f32| DVec3::new(-n.y, n.x, 0.0) * (TAU * f64::from(radius));
+        match *self {
+            Self::Sphere { radius } => {
                 let rho = n.truncate().length();
-                QuadricPoint {
-                    p: n * f64::from(radius),
-                    n,
-                    uv: Vec2::new(turn(n.truncate()), (rho.atan2(n.z) / PI) as f32),
-                    dpdu: DVec3::new(-n.y, n.x, 0.0) * (TAU * f64::from(radius)),
-                }
+                let uv = Vec2::new(turn(n.truncate()), (rho.atan2(n.z) / PI) as f32);
+                Chart { uv, dpdu: around(radius) }
             }
             Self::Disk { radius } => {
                 let r = f64::from(radius);
                 let uv = 0.5 * (DVec2::new(p.x, -p.y) / r + 1.0);
-                QuadricPoint {
-                    p: p.with_z(0.0),
-                    n: DVec3::Z,
-                    uv: uv.as_vec2().clamp(Vec2::ZERO, Vec2::ONE),
-                    dpdu: DVec3::X * (2.0 * r),
-                }
+                Chart { uv: uv.as_vec2().clamp(Vec2::ZERO, Vec2::ONE), dpdu: DVec3::X * (2.0 * r) }
             }
             Self::Cylinder { radius, height } => {
-                let (r, h) = (f64::from(radius), f64::from(height));
-                let n = p.truncate().try_normalize().unwrap_or(DVec2::X);
-                let z = p.z.clamp(0.0, h);
-                QuadricPoint {
-                    p: (n * r).extend(z),
-                    n: n.extend(0.0),
-                    uv: Vec2::new(turn(n), (1.0 - z / h) as f32),
-                    dpdu: DVec3::new(-n.y, n.x, 0.0) * (TAU * r),
-                }
+                let uv = Vec2::new(turn(n.truncate()), (1.0 - p.z / f64::from(height)) as f32);
+                Chart { uv, dpdu: around(radius) }
             }
         }
     }

@@ -19,10 +19,12 @@ mod mean;
 mod moments;
 mod quadrature;
 mod sampling;
+mod slice;
 mod table;
 
 pub use atlas::Atlas;
 pub(super) use grid::{Grid, Stencil};
 pub use interface::{Energy, Interface};
 pub(super) use quadrature::gauss_legendre;
-pub use table::{EnergyTable, Slice};
+pub use slice::Slice;
+pub use table::EnergyTable;

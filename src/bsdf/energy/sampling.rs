@@ -1,6 +1,6 @@
 //! Directions for the multiply scattered lobe.
 
-use super::table::Slice;
+use super::slice::Slice;
 use crate::warp::uniform_disk;
 use glam::Vec3;
 use std::f32::consts::FRAC_1_PI;

@@ -1,13 +1,11 @@
 //! Tables of the energy over direction and roughness, computed once for each interface.
 
-use super::atlas::{Atlas, Pair};
-use super::axes::{Axis, abscissa, alpha_of, azimuth, invert, log_alpha, shape};
+use super::axes::{abscissa, alpha_of, azimuth, invert, log_alpha, shape};
 use super::grid::{Grid, Stencil, Value};
 use super::interface::{Energy, Interface};
 use super::moments::Moments;
 use super::quadrature::{Rule, gauss_legendre};
 use crate::bsdf::ggx::Ggx;
-use crate::math::sqr;
 use glam::{Vec3, Vec4};
 use std::collections::HashMap;
 use std::f64::consts::FRAC_PI_2;
@@ -23,9 +21,9 @@ pub(super) fn n_alpha(interface: Interface) -> usize {
     }
 }
 /// Nodes in azimuth.
-const N_AZIMUTH: usize = 33;
+pub(super) const N_AZIMUTH: usize = 33;
 /// Nodes of the means in ln α.
-const N_MEANS: usize = 96;
+pub(super) const N_MEANS: usize = 96;
 
 /// Energy over μ and α (isotropic), or over μ and azimuth for one pair of α.
 #[derive(Debug)]
@@ -35,105 +33,11 @@ pub struct EnergyTable {
     pub(super) anisotropic: Option<Ggx>,
     /// Of series over the angle, where one has been asked for.
     pub(super) moments: OnceLock<Moments>,
-    grid: Grid<Vec4>,
+    pub(super) grid: Grid<Vec4>,
     /// Lines of the grid at an α (its bits) that many look-ups will share.
     lines: Mutex<HashMap<u32, &'static [Vec4]>>,
     /// (ln loss, parts) averaged over the hemisphere, at equidistant ln α; anisotropic tables have one.
-    means: Vec<Vec4>,
-}
-
-/// A table at one roughness: what a lobe carries.
-#[derive(Clone, Copy, Debug)]
-pub struct Slice {
-    /// Of this microsurface; of isotropic ones where the atlas has the energies.
-    pub(super) table: &'static EnergyTable,
-    pub(super) ggx: Ggx,
-    row: Stencil,
-    /// Of isotropic microsurfaces: where directions stand, and the line of the grid that the row interpolates, if it is
-    /// there.
-    axis: Axis,
-    line: Option<&'static [Vec4]>,
-    /// Every pair of roughnesses, where there is no table of this one.
-    atlas: Option<(&'static Atlas, Pair)>,
-    /// The larger α, squared, and ln(1 + 1/α²).
-    pub(super) alpha2: f32,
-    pub(super) log: f32,
-    /// Cosine-weighted means over the hemisphere.
-    pub mean: Energy,
-}
-
-impl Slice {
-    /// The energy of this microsurface. Tables are looked up by their parameters, and computed the first time: make
-    /// slices when materials are compiled, and where roughness varies over the surface by [`Slice::isotropic`].
-    pub fn new(interface: Interface, ggx: Ggx) -> Self {
-        if ggx.ax == ggx.ay {
-            let slice = Self::isotropic(EnergyTable::isotropic(interface), ggx.ax);
-            return Self { line: Some(slice.table.line(ggx.ax, slice.row)), ..slice };
-        }
-        let table = EnergyTable::memoised(interface, Some(ggx));
-        Self::with(table, ggx, Stencil::new(0.0, N_AZIMUTH), unpack_mean(table.means[0]))
-    }
-
-    /// An isotropic table at this α.
-    #[inline]
-    pub fn isotropic(table: &'static EnergyTable, alpha: f32) -> Self {
-        let t = log_alpha(alpha);
-        let mean = unpack_mean(Stencil::new(t, N_MEANS).over(&table.means));
-        Self::with(table, Ggx { ax: alpha, ay: alpha }, Stencil::new(t, n_alpha(table.interface)), mean)
-    }
-
-    /// Any pair of roughnesses of a mirroring microsurface, without a table of its own; `table` is that of the isotropic ones.
-    #[inline]
-    pub fn anisotropic(atlas: &'static Atlas, table: &'static EnergyTable, ggx: Ggx) -> Self {
-        let pair = Pair::new(ggx);
-        let slice = Self::with(table, ggx, Stencil::new(0.0, n_alpha(table.interface)), atlas.mean(&pair));
-        Self { atlas: Some((atlas, pair)), ..slice }
-    }
-
-    #[inline]
-    fn with(table: &'static EnergyTable, ggx: Ggx, row: Stencil, mean: Energy) -> Self {
-        let alpha2 = sqr(ggx.ax.max(ggx.ay));
-        let axis = Axis::new(table.interface, ggx.ax);
-        Self { table, ggx, row, axis, line: None, atlas: None, alpha2, log: (1.0 / alpha2).ln_1p(), mean }
-    }
-
-    /// Energies depend on the azimuth.
-    pub(in crate::bsdf) fn is_anisotropic(&self) -> bool {
-        self.ggx.ax != self.ggx.ay
-    }
-
-    /// Energy of the direction `w`, on either side.
-    #[inline]
-    pub fn at(&self, w: Vec3) -> Energy {
-        if let Some((atlas, pair)) = &self.atlas {
-            return atlas.at(self.ggx, pair, w);
-        }
-        let mu = w.z.abs().min(1.0);
-        if self.is_anisotropic() {
-            let (alpha, row) = self.place(w);
-            return self.table.energy(mu, alpha, row);
-        }
-        let x = self.axis.at(mu);
-        let value = match self.line {
-            Some(line) => Stencil::new(x, line.len()).over(line),
-            None => self.table.grid.at(x, self.row),
-        };
-        unpack(self.table.interface, value, mu, self.ggx.ax)
-    }
-
-    /// The roughness that the azimuth of `w` meets, and the row of the table.
-    #[inline]
-    pub(super) fn place(&self, w: Vec3) -> (f32, Stencil) {
-        if self.ggx.ax == self.ggx.ay {
-            return (self.ggx.ax, self.row);
-        }
-        let (alpha, t) = azimuth(self.ggx, w);
-        match self.atlas {
-            None => (alpha, Stencil::new(t, N_AZIMUTH)),
-            // As if the roughness that the azimuth meets were all there is.
-            Some(_) => (alpha, Stencil::new(log_alpha(alpha), n_alpha(self.table.interface))),
-        }
-    }
+    pub(super) means: Vec<Vec4>,
 }
 
 impl EnergyTable {
@@ -149,12 +53,12 @@ impl EnergyTable {
     }
 
     /// The line of the grid in a row, made the first time.
-    fn line(&self, alpha: f32, row: Stencil) -> &'static [Vec4] {
+    pub(super) fn line(&self, alpha: f32, row: Stencil) -> &'static [Vec4] {
         let mut lines = self.lines.lock().unwrap_or_else(PoisonError::into_inner);
         lines.entry(alpha.to_bits()).or_insert_with(|| Box::leak(self.grid.line(row)))
     }
 
-    fn memoised(interface: Interface, anisotropic: Option<Ggx>) -> &'static Self {
+    pub(super) fn memoised(interface: Interface, anisotropic: Option<Ggx>) -> &'static Self {
         type Tables = Mutex<HashMap<[u32; 3], &'static EnergyTable>>;
         static TABLES: LazyLock<Tables> = LazyLock::new(Default::default);
         let key = [
@@ -264,7 +168,7 @@ fn pack(interface: Interface, e: Energy, mu: f32, alpha: f32) -> Vec4 {
 }
 
 #[inline]
-fn unpack(interface: Interface, v: Vec4, mu: f32, alpha: f32) -> Energy {
+pub(super) fn unpack(interface: Interface, v: Vec4, mu: f32, alpha: f32) -> Energy {
     let loss = (v.x * shape(mu, alpha)).clamp(0.0, 1.0);
     let kept = 1.0 - loss;
     let [a, b] = interface.smooth_parts(mu);
@@ -276,7 +180,7 @@ fn pack_mean([loss, a, b]: [f64; 3]) -> Vec4 {
 }
 
 #[inline]
-fn unpack_mean(v: Vec4) -> Energy {
+pub(super) fn unpack_mean(v: Vec4) -> Energy {
     Energy { loss: v.x.exp(), parts: [v.y, v.z] }
 }
 
@@ -320,6 +224,7 @@ pub(super) fn over_cosine<const K: usize>(interface: Interface, alpha: f32, f: i
 
 #[cfg(test)]
 mod tests {
+    use super::super::slice::Slice;
     use super::*;
 
     #[test]
