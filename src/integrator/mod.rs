@@ -217,11 +217,9 @@ fn emitted(method: &Method, vertex: &Vertex, drawn: Drawn) -> Spectrum {
 /// Light from infinity along a ray that met nothing.
 fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
     let lights = &method.scene.lights;
-    let le = lights.environment_le(ray.d);
-    if le.is_black() {
-        return Spectrum::ZERO;
-    }
-    le * weight_of_hit(method.strategy, drawn, |from| lights.environment_pdf(from, ray.d))
+    let Drawn::Smooth { from, .. } = drawn else { return lights.environment_le(ray.d) };
+    let (le, pdf) = lights.environment_le_and_pdf(&from, ray.d);
+    le * weight_of_hit(method.strategy, drawn, |_| pdf)
 }
 
 /// Whether light that the light sampler finds is reflected.

@@ -67,14 +67,10 @@ impl Lights {
         };
         // Several environments, or a sun in the sky, are one: a direction meets all of them.
         if self.environments.len() > 1 && light.surrounds() {
-            (sample.le, sample.pdf) = self.environments_towards(receiver, sample.wi);
+            let (le, pdf) = self.environment_le_and_pdf(receiver, sample.wi);
+            (sample.le, sample.pdf) = (le, Pdf::SolidAngle(pdf));
         }
         Some((index, sample))
-    }
-
-    #[inline(never)]
-    fn environments_towards(&self, receiver: &Receiver, wi: Vec3) -> (Spectrum, Pdf) {
-        (self.environment_le(wi), Pdf::SolidAngle(self.environment_pdf(receiver, wi)))
     }
 
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws the point `p`, with geometric
@@ -112,12 +108,18 @@ impl Lights {
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws `wi` from the environments.
     #[inline]
     pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3) -> f32 {
-        // What a sun's disk does not cover need not be asked for its choice.
-        let density = |(i, light): (u32, &Light)| match light.pdf_from(wi) {
-            0.0 => 0.0,
-            pdf => self.choice(i, receiver) * pdf,
-        };
-        self.environments().map(density).sum()
+        self.environment_le_and_pdf(receiver, wi).1
+    }
+
+    /// Both of these at once.
+    #[inline(never)]
+    pub fn environment_le_and_pdf(&self, receiver: &Receiver, wi: Vec3) -> (Spectrum, f32) {
+        self.environments().fold((Spectrum::ZERO, 0.0), |(le, pdf), (i, light)| {
+            let (own_le, own_pdf) = light.le_and_pdf_from(wi);
+            // What a sun's disk does not cover need not be asked for its choice.
+            let own_pdf = if own_pdf == 0.0 { 0.0 } else { self.choice(i, receiver) * own_pdf };
+            (le + own_le, pdf + own_pdf)
+        })
     }
 
     /// Whether there is nothing to sample.

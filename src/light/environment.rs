@@ -71,6 +71,18 @@ impl Environment {
         }
     }
 
+    /// [`le`](Self::le) and [`pdf`](Self::pdf) of the same direction.
+    #[inline]
+    pub fn le_and_pdf(&self, wi: Vec3) -> (Spectrum, f32) {
+        match &self.texels {
+            None => (self.radiance, UNIFORM_SPHERE_PDF),
+            Some(texels) => {
+                let texel = texels.find(self.to_local(wi));
+                (texels.radiance_at(texel), texels.pdf_at(texel))
+            }
+        }
+    }
+
     /// Draws a direction from which light arrives.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
@@ -160,15 +172,14 @@ impl Texels {
     /// where rounding carries the direction over its edge.
     #[inline]
     fn sample(&self, u: [f32; 2]) -> Option<(Vec3, Spectrum, f32)> {
-        let draw = self.table.as_ref()?.sample(u);
-        let [column, row] = draw.index;
-        let within = |i: usize| (f64::from(draw.p[i]) * self.size[i] as f64 - draw.index[i] as f64).clamp(0.0, 1.0);
+        let ([column, row], within, pdf) = self.table.as_ref()?.choose(u);
+        let [x, y] = within.map(f64::from);
         let (cos_top, cos_bottom) = (self.cos_theta[row], self.cos_theta[row + 1]);
-        let cos = cos_top + within(1) * (cos_bottom - cos_top);
+        let cos = cos_top + y * (cos_bottom - cos_top);
         let sin = ((1.0 - cos) * (1.0 + cos)).max(0.0).sqrt();
-        let longitude = f64s::TAU * ((column as f64 + within(0)) / self.size[0] as f64 - 0.5);
+        let longitude = f64s::TAU * ((column as f64 + x) / self.size[0] as f64 - 0.5);
         let w = Vec3::new((sin * longitude.sin()) as f32, cos as f32, (-sin * longitude.cos()) as f32);
-        Some((w, self.radiance_at(draw.index), draw.pdf * self.row_density[row]))
+        Some((w, self.radiance_at([column, row]), pdf * self.row_density[row]))
     }
 
     /// Σ L ΔΩ.

@@ -218,13 +218,13 @@ impl Light {
         }
     }
 
-    /// Density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity; 0 for other lights.
+    /// The same with the density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity.
     #[inline]
-    pub fn pdf_from(&self, wi: Vec3) -> f32 {
+    pub fn le_and_pdf_from(&self, wi: Vec3) -> (Spectrum, f32) {
         match self {
-            Self::Environment(light) => light.pdf(wi),
-            Self::Sun(light) => light.pdf(wi),
-            _ => 0.0,
+            Self::Environment(light) => light.le_and_pdf(wi),
+            Self::Sun(light) => (light.le(wi), light.pdf(wi)),
+            _ => (Spectrum::ZERO, 0.0),
         }
     }
 

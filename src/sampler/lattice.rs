@@ -117,7 +117,7 @@ mod tests {
             if square(u) > square(v) {
                 std::mem::swap(&mut u, &mut v);
             }
-            let m = ((u.0 * v.0 + u.1 * v.1) as f64 / square(u) as f64).round() as i64;
+            let m = ((u.0 * v.0 + u.1 * v.1) as f64 / square(u) as f64).round_ties_even() as i64;
             if m == 0 {
                 return square(u);
             }

@@ -142,11 +142,17 @@ impl Table2 {
     /// The place at `u`; `u[1]` chooses the row.
     #[inline]
     pub fn sample(&self, u: [f32; 2]) -> Draw2 {
-        let row = self.rows.sample(u[1]);
-        let (column, within, probability) = draw(self.row(row.index), u[0]);
-        let width = self.size[0];
-        let x = place(column, within, width);
-        Draw2 { p: [x, row.x], pdf: row.pdf * probability * width as f32, index: [column, row.index] }
+        let (index, within, pdf) = self.choose(u);
+        Draw2 { p: [0, 1].map(|i| place(index[i], within[i], self.size[i])), pdf, index }
+    }
+
+    /// Chooses a cell: its column and row, what is left of `u`, uniform on [0, 1)², and the density over [0, 1)².
+    #[inline]
+    pub fn choose(&self, u: [f32; 2]) -> ([usize; 2], [f32; 2], f32) {
+        let (row, y, row_probability) = draw(&self.rows.cdf, u[1]);
+        let (column, x, probability) = draw(self.row(row), u[0]);
+        let [width, height] = self.size.map(|n| n as f32);
+        ([column, row], [x, y], row_probability * height * probability * width)
     }
 
     /// Density at `p`; 0 outside [0, 1)².
@@ -199,10 +205,16 @@ fn accumulate(weights: &[f32], cdf: &mut [f32]) -> Option<f64> {
 /// Entry whose interval of the distribution function holds `u`, how far in it `u` lies, and its probability.
 #[inline]
 fn draw(cdf: &[f32], u: f32) -> (usize, f32, f32) {
-    // cdf[0] = 0 ≤ u: the entry ends at the first number above u. Empty entries have no number above their start.
-    let end = cdf[1..].partition_point(|&c| c <= u).min(cdf.len() - 2) + 1;
-    let (low, probability) = (cdf[end - 1], cdf[end] - cdf[end - 1]);
-    (end - 1, to_unit((u - low) / probability), probability)
+    // cdf[0] = 0 ≤ u: the entry is the last that begins at u or before. Empty entries begin where the next one does.
+    // Halved without branches, which would be guessed wrong half of the time.
+    let (mut index, mut size) = (0, cdf.len() - 1);
+    while size > 1 {
+        let half = size / 2;
+        index += usize::from(cdf[index + half] <= u) * half;
+        size -= half;
+    }
+    let (low, probability) = (cdf[index], cdf[index + 1] - cdf[index]);
+    (index, to_unit((u - low) / probability), probability)
 }
 
 /// The number of the unit interval that lies `within` an entry of n. Where rounding carries it over an edge it is brought

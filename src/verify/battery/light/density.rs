@@ -70,7 +70,7 @@ impl Placed {
     /// that lie there, one behind the other, and that emit towards `p`.
     fn density(&self, wi: Vec3) -> f64 {
         if self.light.surrounds() {
-            return f64::from(self.light.pdf_from(wi));
+            return f64::from(self.light.le_and_pdf_from(wi).1);
         }
         let (mut sum, mut ray) = (0.0, Ray::new(self.p, wi));
         // Quadrics and triangles meet a ray twice at most.
@@ -145,7 +145,7 @@ impl Placed {
     fn compare(&self, s: &LightSample, pdf: f32) -> Option<Compared> {
         if self.light.surrounds() {
             // At a texel's or a disk's edge rounding may lead beyond it.
-            let deviation = f64::from(self.light.pdf_from(s.wi) / pdf - 1.0).abs();
+            let deviation = f64::from(self.light.le_and_pdf_from(s.wi).1 / pdf - 1.0).abs();
             return (self.light.le_from(s.wi) == s.le && deviation < 1e-6).then_some(Compared {
                 deviation,
                 promised: true,
