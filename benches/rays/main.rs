@@ -8,7 +8,8 @@
 //!
 //! Kernels that this CPU has beside its best stand under their names, on trees of the default quality; the best kernel under the names
 //! of all qualities. One thread, its CPU time, all contenders in turn on the same rays of one process, medians of eleven turns. A ratio of 1.25 is
-//! a quarter more rays in the same time. Also prints the seconds that each tree took to build, and how often hits differ.
+//! a quarter more rays in the same time. Rays that leave a surface know which triangle it was, as the renderer's do; with
+//! `--untold` they do not. Also prints the seconds that each tree took to build, and how often hits differ.
 
 mod embree;
 mod scenes;
@@ -19,20 +20,42 @@ use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
 use radianza::math::Ray;
 use scenes::{Meshed, Query, RaySet};
 use std::hint::black_box;
+use std::rc::Rc;
 
 const TURNS: usize = 11;
 
 /// Number of rays that meet something, and Σ t of nearest hits.
-type Answer<'a> = Box<dyn Fn(Query, &[Ray]) -> (usize, f64) + 'a>;
+type Answer<'a> = Box<dyn Fn(Query, &[Ray], &[Slot]) -> (usize, f64) + 'a>;
 
 /// Something that answers both queries.
 struct Contender<'a> {
     name: String,
     answer: Answer<'a>,
+    /// The triangles that rays leave, from the rays that met them there.
+    leaving: Box<dyn Fn(&RaySet) -> Vec<Slot> + 'a>,
+}
+
+/// One of ours: the rays know which triangle they leave, as the renderer's do, where they are `told`.
+fn own<'a>(name: &str, bvh: TriangleBvh, told: bool) -> Contender<'a> {
+    let bvh = Rc::new(bvh);
+    let tree = bvh.clone();
+    let slot = move |ray: &Ray| tree.nearest(ray, Slot::NONE).map_or(Slot::NONE, |hit| hit.slot);
+    Contender {
+        name: name.into(),
+        answer: Box::new(move |query, rays, leaving| ours(&bvh, query, rays, leaving)),
+        leaving: Box::new(move |set| {
+            if told && !set.parents.is_empty() {
+                set.parents.iter().map(&slot).collect()
+            } else {
+                vec![Slot::NONE; set.rays.len()]
+            }
+        }),
+    }
 }
 
 fn main() {
     let wanted: Vec<String> = std::env::args().skip(1).filter(|a| !a.starts_with('-')).collect();
+    let told = !std::env::args().any(|a| a == "--untold");
     let library = std::env::var_os("EMBREE_LIB").map(|path| {
         Embree::load(&path).unwrap_or_else(|e| {
             eprintln!("EMBREE_LIB: {}: {e}", path.display());
@@ -44,7 +67,7 @@ fn main() {
     }
     let mut sums: Vec<Geometric> = Vec::new();
     for scene in scenes::all().filter(|s| wanted.is_empty() || wanted.iter().any(|w| s.name.contains(w.as_str()))) {
-        race(&scene, library.as_ref(), &mut sums);
+        race(&scene, library.as_ref(), told, &mut sums);
     }
     println!("\ngeometric means over all sets");
     for sum in sums {
@@ -66,7 +89,7 @@ fn add(sums: &mut Vec<Geometric>, name: String, ratio: f64) {
     }
 }
 
-fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
+fn race(scene: &Meshed, library: Option<&Embree>, told: bool, sums: &mut Vec<Geometric>) {
     let Meshed { name, positions, indices, .. } = scene;
     println!("\n{name}: {} triangles", indices.len());
     let trees = Quality::ALL.map(|(quality, name)| {
@@ -81,11 +104,10 @@ fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
     let mut contenders = Vec::new();
     for (isa, isa_name) in Isa::ALL.into_iter().filter(|(isa, _)| *isa < Isa::detect()) {
         let Some(bvh) = TriangleBvh::build(positions, indices, Quality::Default).with_isa(isa) else { continue };
-        contenders
-            .push(Contender { name: isa_name.into(), answer: Box::new(move |query, rays| ours(&bvh, query, rays)) });
+        contenders.push(own(isa_name, bvh, told));
     }
     for (bvh, name) in trees {
-        contenders.push(Contender { name: name.into(), answer: Box::new(move |query, rays| ours(&bvh, query, rays)) });
+        contenders.push(own(name, bvh, told));
     }
     let best_of_ours = contenders.len() - 1;
     if let Some(library) = library {
@@ -99,21 +121,24 @@ fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
             let tree = library.build(positions, indices, quality, robust);
             let how = if robust { "robust" } else { "fast" };
             println!("  Embree {quality:?} {how}: built in {:.2} s", start.elapsed().as_secs_f64());
-            let answer = move |query, rays: &[Ray]| tree.answer(query, rays);
-            contenders.push(Contender { name: format!("Embree {how}"), answer: Box::new(answer) });
+            let answer = move |query, rays: &[Ray], _: &[Slot]| tree.answer(query, rays);
+            let (name, leaving) = (format!("Embree {how}"), Box::new(|_: &RaySet| Vec::new()));
+            contenders.push(Contender { name, answer: Box::new(answer), leaving });
         }
     }
 
     print!("  {:16}", "Mrays/s");
     contenders.iter().for_each(|c| print!(" {:>13}", c.name));
     println!();
-    for RaySet { name, query, rays } in &sets {
+    for set in &sets {
+        let RaySet { name, query, rays, .. } = set;
         let mut seconds = vec![Vec::with_capacity(TURNS); contenders.len()];
-        let answers: Vec<_> = contenders.iter().map(|c| (c.answer)(*query, rays)).collect();
+        let leaving: Vec<_> = contenders.iter().map(|c| (c.leaving)(set)).collect();
+        let answers: Vec<_> = contenders.iter().zip(&leaving).map(|(c, l)| (c.answer)(*query, rays, l)).collect();
         for _ in 0..TURNS {
-            for (contender, seconds) in contenders.iter().zip(&mut seconds) {
+            for ((contender, leaving), seconds) in contenders.iter().zip(&leaving).zip(&mut seconds) {
                 let start = ThreadTime::now();
-                black_box((contender.answer)(*query, black_box(rays)));
+                black_box((contender.answer)(*query, black_box(rays), leaving));
                 seconds.push(start.elapsed().as_secs_f64());
             }
         }
@@ -148,12 +173,13 @@ fn race(scene: &Meshed, library: Option<&Embree>, sums: &mut Vec<Geometric>) {
     }
 }
 
-fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray]) -> (usize, f64) {
+fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray], leaving: &[Slot]) -> (usize, f64) {
+    let rays = rays.iter().zip(leaving);
     match query {
-        Query::Nearest => rays.iter().fold((0, 0.0), |(n, sum), ray| match bvh.nearest(ray, Slot::NONE) {
+        Query::Nearest => rays.fold((0, 0.0), |(n, sum), (ray, &slot)| match bvh.nearest(ray, slot) {
             Some(hit) => (n + 1, sum + f64::from(hit.t)),
             None => (n, sum),
         }),
-        Query::Occluded => (rays.iter().filter(|ray| bvh.occluded(ray, Slot::NONE)).count(), 0.0),
+        Query::Occluded => (rays.filter(|(ray, slot)| bvh.occluded(ray, **slot)).count(), 0.0),
     }
 }

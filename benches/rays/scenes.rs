@@ -25,6 +25,22 @@ pub(crate) struct RaySet {
     pub(crate) name: &'static str,
     pub(crate) query: Query,
     pub(crate) rays: Vec<Ray>,
+    /// Of each, the ray whose hit it leaves; none leave the camera.
+    pub(crate) parents: Vec<Ray>,
+}
+
+/// Rays, and those whose hits they leave.
+#[derive(Default)]
+struct Left {
+    rays: Vec<Ray>,
+    parents: Vec<Ray>,
+}
+
+impl Left {
+    fn push(&mut self, ray: Ray, parent: &Ray) {
+        self.rays.push(ray);
+        self.parents.push(*parent);
+    }
 }
 
 /// Triangles, and where they are looked at and lit from.
@@ -102,10 +118,10 @@ impl Meshed {
             }
         }
         let (first, shadow) = self.leave(bvh, &primary, &mut u);
-        let (second, _) = self.leave(bvh, &first, &mut u);
-        let set = |name, query, rays| RaySet { name, query, rays };
+        let (second, _) = self.leave(bvh, &first.rays, &mut u);
+        let set = |name, query, Left { rays, parents }| RaySet { name, query, rays, parents };
         [
-            set("primary", Query::Nearest, primary),
+            set("primary", Query::Nearest, Left { rays: primary, parents: Vec::new() }),
             set("first bounce", Query::Nearest, first),
             set("second bounce", Query::Nearest, second),
             set("shadow", Query::Occluded, shadow),
@@ -113,8 +129,8 @@ impl Meshed {
     }
 
     /// Rays that leave the hits diffusely, and towards the lamp.
-    fn leave(&self, bvh: &TriangleBvh, rays: &[Ray], u: &mut Sampler) -> (Vec<Ray>, Vec<Ray>) {
-        let (mut bounces, mut shadows) = (Vec::new(), Vec::new());
+    fn leave(&self, bvh: &TriangleBvh, rays: &[Ray], u: &mut Sampler) -> (Left, Left) {
+        let (mut bounces, mut shadows) = (Left::default(), Left::default());
         for ray in rays {
             let Some(hit) = bvh.nearest(ray, Slot::NONE) else { continue };
             let corners = bvh.vertices(&hit);
@@ -122,12 +138,12 @@ impl Meshed {
             let n = if n.dot(ray.d) > 0.0 { -n } else { n };
             let s = flat_surface(corners, hit.u, hit.v, n);
             let d = Frame::from_z(n).to_world(warp::cosine_hemisphere(u.next_2d()));
-            bounces.push(Ray::new(offset_origin(s.p, s.p_error, n, d), d));
+            bounces.push(Ray::new(offset_origin(s.p, s.p_error, n, d), d), ray);
             let [a, b] = u.next_2d();
             let to = self.lamp[0] + self.lamp[1] * a + self.lamp[2] * b - s.p;
             if to.dot(n) > 0.0 {
                 let o = offset_origin(s.p, s.p_error, n, to);
-                shadows.push(Ray { o, d: to.normalize(), t_max: to.length() * 0.999 });
+                shadows.push(Ray { o, d: to.normalize(), t_max: to.length() * 0.999 }, ray);
             }
         }
         (bounces, shadows)

@@ -98,8 +98,8 @@ impl Scene {
         self.intersect_from(ray, Departure::NOWHERE, &mut Inside::default(), u)
     }
 
-    /// The same for a ray that leaves a triangle and begins `inside` interiors, and learns of those that it enters and leaves behind surfaces
-    /// that are hidden in others. What is there stays the same all along.
+    /// The same for a ray that leaves a triangle and begins `inside` interiors, and learns of those that it enters and leaves
+    /// behind surfaces that are hidden in others. What is there stays the same all along.
     #[inline]
     pub fn intersect_from(
         &self,

@@ -36,7 +36,7 @@ pub struct PreparedRay {
 
 impl PreparedRay {
     /// Of a ray that leaves the triangle at `leaving` of the tree that it is traced in first.
-    #[inline]
+    #[inline(always)]
     pub fn new(ray: &Ray, leaving: Slot) -> Self {
         let (own_leaf, own_lane) = leaving.place();
         let minus_d_inv = -Vec3A::from(ray.d).recip();
