@@ -157,7 +157,8 @@ def cycles(what):
 def contenders(args):
     have = lambda module: importlib.util.find_spec(module) is not None
     all_of_them = {
-        "Radianza, sobol": Radianza("sobol"),
+        "Radianza, lattice": Radianza("lattice"),
+        "Radianza, lattice in one replicate": Radianza("lattice", one_replicate=True),
         "Radianza, sobol in one replicate": Radianza("sobol", one_replicate=True),
         "Radianza, independent": Radianza("independent"),
         "Mitsuba llvm_ad_rgb, multijitter": Worker("mitsuba", "llvm_ad_rgb", "multijitter"),
