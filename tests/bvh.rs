@@ -56,6 +56,15 @@ proptest! {
                 prop_assert_eq!(hit, other.nearest(&ray, Slot::NONE));
                 prop_assert_eq!(hit.is_some(), other.occluded(&ray, Slot::NONE));
             }
+            // A ray that is told to leave the triangle meets what is behind it.
+            if let Some(hit) = hit {
+                let behind = bvh.nearest(&ray, hit.slot);
+                prop_assert!(behind.is_none_or(|b| b.t >= hit.t && b.slot != hit.slot && b.triangle != hit.triangle));
+                for tree in std::iter::once(&bvh).chain(&others) {
+                    prop_assert_eq!(behind, tree.nearest(&ray, hit.slot));
+                    prop_assert_eq!(behind.is_some(), tree.occluded(&ray, hit.slot));
+                }
+            }
             let corner = |i: u32| positions[i as usize];
             let slow = indices.iter().filter_map(|t| Some(intersect_triangle(&ray, t.map(corner))?.t));
             let slow = slow.min_by(f32::total_cmp);
