@@ -27,12 +27,14 @@ const TURNS: usize = 11;
 /// Number of rays that meet something, and Σ t of nearest hits.
 type Answer<'a> = Box<dyn Fn(Query, &[Ray], &[Slot]) -> (usize, f64) + 'a>;
 
+/// The triangles that rays leave, from the rays that met them there.
+type Leaving<'a> = Box<dyn Fn(&RaySet) -> Vec<Slot> + 'a>;
+
 /// Something that answers both queries.
 struct Contender<'a> {
     name: String,
     answer: Answer<'a>,
-    /// The triangles that rays leave, from the rays that met them there.
-    leaving: Box<dyn Fn(&RaySet) -> Vec<Slot> + 'a>,
+    leaving: Leaving<'a>,
 }
 
 /// One of ours: the rays know which triangle they leave, as the renderer's do, where they are `told`.
