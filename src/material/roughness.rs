@@ -156,7 +156,12 @@ impl RoughInterface {
         if is_no_interface(eta) {
             return None;
         }
-        alpha(&self.roughness, at).map(|alpha| RoughDielectric::new(alpha, eta, tint))
+        let [a, b] = alpha(&self.roughness, at)?;
+        Some(match fixed(&self.roughness) {
+            Some(_) => RoughDielectric::new([a, b], eta, tint),
+            // What is kept for every roughness that is asked for would pile up.
+            None => RoughDielectric::isotropic((a * b).sqrt(), eta, tint, &DielectricTables::new(eta)),
+        })
     }
 }
 
