@@ -3,7 +3,7 @@
 mod common;
 
 use common::closed_mesh;
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
 use radianza::bvh::{Aabb, BoxBvh, Isa, Quality, Slot, TriangleBvh};
 use radianza::math::{Ray, offset_origin};
@@ -45,7 +45,7 @@ proptest! {
             let o = (Vec3::new(u.next_1d(), u.next_1d(), u.next_1d()) * 2.0 - 1.0) * spread;
             // Axis-parallel rays too: their reciprocals are infinite.
             let d = if i % 10 == 0 { Vec3::AXES[i / 10 % 3] } else { warp::uniform_sphere(u.next_2d()) };
-            let ray = Ray { o, d, t_max: if i % 3 == 0 { spread } else { f32::INFINITY } };
+            let ray = Ray { t_max: if i % 3 == 0 { spread } else { f32::INFINITY }, ..Ray::new(o, d) };
             let hit = bvh.nearest(&ray, Slot::NONE);
             prop_assert_eq!(hit.is_some(), bvh.occluded(&ray, Slot::NONE));
             // At an edge another tree may find the other triangle, at the same place.
@@ -95,7 +95,7 @@ proptest! {
             let target = boxes[(p().x * n as f32) as usize % n];
             let o = p() * 40.0 - 20.0;
             let at = (target.min + target.max) * 0.5;
-            let ray = Ray { o, d: (at - o).normalize(), t_max: f32::INFINITY };
+            let ray = Ray::new(o, (at - o).normalize());
             let mut asked = vec![0; n];
             bvh.traverse(&ray, |i, _| { asked[i as usize] += 1; None });
             let i = boxes.iter().position(|b| *b == target).unwrap();
@@ -138,10 +138,10 @@ fn rays_that_leave_a_plane_through_zero_do_not_meet_it() {
                 for i in 0..20_000 {
                     let mut u = Sampler::new(Kind::Independent, 3, [axis as u32, 0], i, 1);
                     let [x, z] = u.next_2d().map(|u| (0.2 * u - 0.1) * scale * 0.999);
-                    let normal = turn(Vec3::Y);
+                    let normal = Vec3A::from(turn(Vec3::Y));
                     let d = warp::cosine_hemisphere(u.next_2d());
-                    let d = turn(Vec3::new(d.x, d.z, d.y));
-                    let o = offset_origin(turn(Vec3::new(x, 0.0, z)), Vec3::ZERO, normal, d);
+                    let d = Vec3A::from(turn(Vec3::new(d.x, d.z, d.y)));
+                    let o = offset_origin(turn(Vec3::new(x, 0.0, z)).into(), Vec3A::ZERO, normal, d);
                     let found = (bvh.nearest(&Ray::new(o, d), Slot::NONE), bvh.occluded(&Ray::new(o, d), Slot::NONE));
                     assert_eq!(found, (None, false), "axis {axis} scale {scale} {isa:?}: {o} {d}");
                     let back = Ray::new(o + normal * (1e-3 * scale), -normal);

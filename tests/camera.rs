@@ -1,7 +1,7 @@
 //! Cameras: rays that find the point they were projected from, and points that no projection breaks on. Known points, solid
 //! angles, cos⁴ and the lens are rows of the battery.
 
-use glam::{Mat4, Vec3, vec2, vec3};
+use glam::{Mat4, Vec3, Vec3A, vec2, vec3};
 use proptest::prelude::*;
 use radianza::camera::Camera;
 use radianza::desc::{self, Fov, Lens, Projection};
@@ -33,7 +33,7 @@ fn equirectangular_rays_are_uniform_in_longitude_and_latitude() {
     // Longitude 45° to the right of −z, latitude 30°.
     let expected =
         vec3(45f32.to_radians().sin(), 0.0, -45f32.to_radians().cos()) * 30f32.to_radians().cos() + Vec3::Y * 0.5;
-    assert!((d - expected).length() < 1e-6, "{d}");
+    assert!((Vec3::from(d) - expected).length() < 1e-6, "{d}");
 }
 
 proptest! {
@@ -49,7 +49,7 @@ proptest! {
         // Where there is a lens, rays of a film point agree in the plane of focus only.
         let t = aperture.map_or(t + 0.5, |a| {
             let axis = c.axis();
-            (a.focus_distance - (ray.o - Vec3::from(eye)).dot(axis)) / ray.d.dot(axis)
+            (a.focus_distance - (ray.o - Vec3A::from(eye)).dot(axis)) / ray.d.dot(axis)
         });
         let found = c.project(ray.at(t));
         prop_assert!(found.is_some_and(|f| (f - film).length() < 2e-3), "{film} {found:?}");

@@ -3,7 +3,7 @@
 
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
-use radianza::glam::{Mat3, Mat4, Vec3, Vec4};
+use radianza::glam::{Mat3, Mat4, Vec3, Vec3A, Vec4};
 use radianza::light::{Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
@@ -27,8 +27,8 @@ fn darkness_is_empty() {
         let lights = Lights::new(lights, (Vec3::ZERO, 1.0), &textures);
         assert!(lights.is_empty());
         assert!(lights.sample(&Receiver::anywhere(Vec3::ONE), 0.5, [0.5; 2], &textures).is_none());
-        assert_eq!(lights.environment_le(Vec3::X), Spectrum::ZERO);
-        assert_eq!(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), Vec3::X), 0.0);
+        assert_eq!(lights.environment_le(Vec3A::X), Spectrum::ZERO);
+        assert_eq!(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), Vec3A::X), 0.0);
         assert_eq!(lights.total_power(), Spectrum::ZERO);
     }
 }
@@ -45,8 +45,8 @@ fn environments_add_up() {
     let both = vec![environment(0.5, None, Mat3::IDENTITY), environment(1.0, Some(image), Mat3::IDENTITY)];
     let lights = Lights::new(both, (Vec3::ZERO, 1.0), &textures);
     // The brighter half of the image is the right one, towards +x.
-    assert_eq!(lights.environment_le(Vec3::X), Spectrum::splat(3.5));
-    assert_eq!(lights.environment_le(-Vec3::X), Spectrum::splat(0.5));
+    assert_eq!(lights.environment_le(Vec3A::X), Spectrum::splat(3.5));
+    assert_eq!(lights.environment_le(-Vec3A::X), Spectrum::splat(0.5));
     let mut rng = Pcg64Mcg::new(9);
     for _ in 0..1000 {
         let u = [rng.random(), rng.random()];
@@ -101,7 +101,7 @@ fn environment_images_are_oriented() {
     };
     let turn = Mat3::from_rotation_y(0.4);
     let Light::Environment(light) = environment(1.0, Some(image), turn) else { unreachable!() };
-    let rgb = |w: Vec3| light.le(turn * w).to_rgb();
+    let rgb = |w: Vec3| light.le((turn * w).into()).to_rgb();
     assert_eq!(rgb(Vec3::NEG_Z), [1.0, 0.0, 0.0]);
     assert_eq!(rgb(Vec3::X), [0.0, 1.0, 0.0]);
     assert_eq!(rgb(Vec3::NEG_X), [0.0, 0.0, 0.0]);
@@ -115,7 +115,7 @@ fn environment_images_are_oriented() {
 fn environment_pixels_are_decoded() {
     let image = |pixels| desc::Image { name: "one".into(), size: [1, 1], pixels };
     let le = |pixels| match environment(2.0, Some(image(pixels)), Mat3::IDENTITY) {
-        Light::Environment(light) => light.le(Vec3::X).to_rgb(),
+        Light::Environment(light) => light.le(Vec3A::X).to_rgb(),
         _ => unreachable!(),
     };
     let [r, g, b] = le(desc::Pixels::Rgba8(vec![[255, 0, 188, 9]]));
@@ -143,7 +143,7 @@ fn the_sky_and_its_sun_light_the_ground_together() {
     let exact = sky + f64::from(irradiance[1] * -direction.y);
 
     let compiled = radianza::scene::Scene::compile(&scene).expect("compiles");
-    let receiver = Receiver { p: Vec3::ZERO, facing: Facing::Half(Vec3::Y) };
+    let receiver = Receiver { p: Vec3A::ZERO, facing: Facing::Half(Vec3A::Y) };
     let (mut rng, mut seen) = (Pcg64Mcg::new(4), radianza::stats::Moments::default());
     for _ in 0..200_000 {
         let u = [rng.random(), rng.random()];

@@ -2,7 +2,7 @@
 
 use proptest::prelude::*;
 use proptest::test_runner::RngSeed;
-use radianza::glam::{DVec2, DVec3, Mat4, Quat, Vec2, Vec3, Vec4};
+use radianza::glam::{DVec2, DVec3, Mat4, Quat, Vec2, Vec3, Vec3A, Vec4};
 use radianza::math::{Frame, Ray, Transform, offset_origin};
 use radianza::shape::{
     PlacedQuadric, Quadric, TriangleAttributes, interpolate, intersect_triangle, triangle_area, triangle_normal,
@@ -141,7 +141,7 @@ proptest! {
         // Meet the surface near a random point of it, from a random place.
         let s = extent(&shape.quadric);
         let target = shape.surface_at(&shape.quadric.sample_area([u, v]), true).p;
-        let o = target + from * (distance * s);
+        let o = target + Vec3A::from(from) * (distance * s);
         let ray = Ray::new(o, (target - o).normalize());
         let Some(t) = shape.intersect(&ray) else { return Ok(()) };
         let surface = shape.surface(&ray, t, true);
@@ -188,7 +188,7 @@ proptest! {
     fn bounds_hold_the_surface(shape in placed(), u in 0f32..1.0, v in 0f32..1.0) {
         let (low, high) = shape.bounds();
         let p = shape.surface_at(&shape.quadric.sample_area([u, v]), true).p;
-        prop_assert!(p.cmpge(low).all() && p.cmple(high).all(), "{p} outside {low} {high}");
+        prop_assert!(p.cmpge(low.into()).all() && p.cmple(high.into()).all(), "{p} outside {low} {high}");
     }
 
     /// The same for triangles in an instance: the origin stays on its side after it was rounded to object space.
@@ -204,8 +204,9 @@ proptest! {
         let transform = Transform::from_mat4(m).unwrap();
         let local = triangle_surface(p, u, v, &TriangleAttributes::default(), false);
         let surface = local.to_world(&transform);
+        let w = Vec3A::from(w);
         let q = offset_origin(surface.p, surface.p_error, surface.ng, w);
-        let q = transform.to_object.transform_point3(q).as_dvec3();
+        let q = transform.to_object.transform_point3a(q).as_dvec3();
         let [a, b, c] = p.map(|p| p.as_dvec3());
         let above = (b - a).cross(c - a).dot(q - a);
         prop_assert!(if w.dot(surface.ng) > 0.0 { above > 0.0 } else { above < 0.0 }, "leaked by {above}");
@@ -231,7 +232,7 @@ proptest! {
         prop_assert!((surface.p.as_dvec3() - exact).abs().cmple(surface.p_error.as_dvec3()).all());
 
         // Normals: to the front, and the shading normal with it.
-        let front = triangle_normal(p).unwrap();
+        let front = Vec3A::from(triangle_normal(p).unwrap());
         prop_assert_eq!(surface.ng, if flip { -front } else { front });
         prop_assert!(surface.ns.dot(surface.ng) >= 0.0);
 
@@ -264,7 +265,7 @@ fn tangents_and_colours_are_interpolated() {
     let colors = [Vec4::new(1.0, 0.0, 0.0, 1.0), Vec4::new(0.0, 1.0, 0.0, 1.0), Vec4::new(0.0, 0.0, 1.0, 1.0)];
     let attributes = TriangleAttributes { tangents: Some(tangents), colors: Some(colors), ..Default::default() };
     let surface = triangle_surface(p, 0.25, 0.5, &attributes, false);
-    assert_eq!((surface.tangent, surface.handedness), (Vec3::Y, -1.0));
+    assert_eq!((surface.tangent, surface.handedness), (Vec3A::Y, -1.0));
     assert_eq!(triangle_surface(p, 0.25, 0.5, &attributes, true).handedness, 1.0);
     assert_eq!(surface.color, Vec4::new(0.25, 0.25, 0.5, 1.0));
     assert_eq!(interpolate([1f32, 2.0, 4.0], 0.25, 0.5), 2.75);

@@ -48,7 +48,7 @@ fn ten_million_rays_at_edges_and_vertices_of_closed_meshes_find_them() {
                 for o in [inside, outside] {
                     let ray = Ray::new(o, (at - o).normalize());
                     // At the silhouette the rounding of the direction alone may lead past the mesh.
-                    let grazing = o == outside && (at - centre).normalize().dot(ray.d).abs() < 0.15;
+                    let grazing = o == outside && ray.d.dot((at - centre).normalize().into()).abs() < 0.15;
                     let met = (bvh.nearest(&ray, Slot::NONE).is_some(), bvh.occluded(&ray, Slot::NONE));
                     assert!(grazing || met == (true, true), "{isa:?}: a ray from {o} at {at} slipped through: {met:?}");
                     grazed.fetch_add(u64::from(grazing), Ordering::Relaxed);

@@ -1,6 +1,6 @@
 //! Five scenes, and rays as a path tracer asks them.
 
-use glam::{Quat, Vec3};
+use glam::{Quat, Vec3, Vec3A};
 use radianza::bvh::{Slot, TriangleBvh};
 use radianza::desc;
 use radianza::math::{Frame, Ray, offset_origin};
@@ -134,13 +134,13 @@ impl Meshed {
         for ray in rays {
             let Some(hit) = bvh.nearest(ray, Slot::NONE) else { continue };
             let corners = bvh.vertices(&hit);
-            let Some(n) = triangle_normal(corners) else { continue };
+            let Some(n) = triangle_normal(corners.map(Vec3::from)).map(Vec3A::from) else { continue };
             let n = if n.dot(ray.d) > 0.0 { -n } else { n };
             let s = flat_surface(corners, hit.u, hit.v, n);
             let d = Frame::from_z(n).to_world(warp::cosine_hemisphere(u.next_2d()));
             bounces.push(Ray::new(offset_origin(s.p, s.p_error, n, d), d), ray);
             let [a, b] = u.next_2d();
-            let to = self.lamp[0] + self.lamp[1] * a + self.lamp[2] * b - s.p;
+            let to = Vec3A::from(self.lamp[0] + self.lamp[1] * a + self.lamp[2] * b) - s.p;
             if to.dot(n) > 0.0 {
                 let o = offset_origin(s.p, s.p_error, n, to);
                 shadows.push(Ray { o, d: to.normalize(), t_max: to.length() * 0.999 }, ray);

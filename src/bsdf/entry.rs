@@ -129,7 +129,7 @@ impl Entry {
             return None;
         }
         let (i, eta) = self.lobe.sample(o, uc, u)?;
-        let wi = frame.to_world(i).normalize();
+        let wi = Vec3::from(frame.to_world(i)).normalize();
         (i.z * wi.z > 0.0).then_some((wi, eta))
     }
 
@@ -144,7 +144,7 @@ impl Entry {
         }
         self.lobe.deltas(o, mode).map(|delta| {
             let d = delta?;
-            let wi = frame.to_world(d.wi).normalize();
+            let wi = Vec3::from(frame.to_world(d.wi)).normalize();
             let rho_i = d.wi.z / wi.z;
             // f |i·n| is the lobe's f |i·n'| times min(ρ(o), ρ(i))/ρ(i).
             (rho_i > 0.0).then(|| Delta { wi, weight: d.weight * (rho_o / rho_i).min(1.0), ..d })

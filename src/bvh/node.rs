@@ -51,6 +51,8 @@ impl TriangleLeaf {
     /// The vertices of one lane.
     #[inline]
     pub(super) fn triangle(&self, lane: usize) -> [[f32; 3]; 3] {
-        self.v.map(|vertex| vertex.map(|row| row[lane % WIDTH]))
+        let lane = lane % WIDTH;
+        let vertex = |i: usize| [self.v[i][0][lane], self.v[i][1][lane], self.v[i][2][lane]];
+        [vertex(0), vertex(1), vertex(2)]
     }
 }

@@ -8,7 +8,7 @@ use super::node::{NONE, Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
 use arrayvec::ArrayVec;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// Where a ray met a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -146,9 +146,9 @@ impl TriangleBvh {
 
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.
     #[inline]
-    pub fn vertices(&self, hit: &TriangleHit) -> [Vec3; 3] {
+    pub fn vertices(&self, hit: &TriangleHit) -> [Vec3A; 3] {
         let (leaf, lane) = hit.slot.place();
-        self.leaves[leaf].triangle(lane).map(Vec3::from)
+        self.leaves[leaf].triangle(lane).map(Vec3A::from)
     }
 
     /// Box about all triangles.

@@ -10,15 +10,15 @@ pub use specimens::{SIZE, Specimen, specimens};
 use crate::desc::{self, Fov, Lens, Projection};
 use crate::math::Ray;
 use crate::warp::uniform_disk;
-use glam::{Mat3, Vec2, Vec3};
+use glam::{Mat3A, Vec2, Vec3, Vec3A};
 use std::f32::consts::PI;
 
 /// A camera with its film.
 #[derive(Clone, Copy, Debug)]
 pub struct Camera {
-    origin: Vec3,
+    origin: Vec3A,
     /// Camera space → world.
-    rotation: Mat3,
+    rotation: Mat3A,
     /// Width and height of the film in pixels.
     size: Vec2,
     /// From pixels to −1 … 1 across the window, y up.
@@ -68,8 +68,8 @@ impl Camera {
         };
         let axis = |i| camera.to_world.col(i).truncate().normalize_or_zero();
         Self {
-            origin: camera.to_world.w_axis.truncate(),
-            rotation: Mat3::from_cols(axis(0), axis(1), axis(2)),
+            origin: Vec3A::from_vec4(camera.to_world.w_axis),
+            rotation: Mat3A::from_cols(axis(0).into(), axis(1).into(), axis(2).into()),
             size,
             to_window: Vec2::new(2.0, -2.0) / size,
             kind,
@@ -77,7 +77,7 @@ impl Camera {
     }
 
     /// Where it stands: the pinhole, the middle of the lens, or of the window of parallel rays.
-    pub fn middle(&self) -> Vec3 {
+    pub fn middle(&self) -> Vec3A {
         self.origin
     }
 
@@ -94,7 +94,7 @@ impl Camera {
         let window = film * self.to_window + Vec2::new(-1.0, 1.0);
         let (o, d) = match self.kind {
             Kind::Pinhole { half } => {
-                return Ray::new(self.origin, (self.rotation * (window * half).extend(-1.0)).normalize());
+                return Ray::new(self.origin, (self.rotation * Vec3A::from((window * half).extend(-1.0))).normalize());
             }
             Kind::ThinLens { half, lens: Lens { radius, focus_distance } } => {
                 // All rays of a film point meet where its chief ray crosses the plane in focus.
@@ -108,13 +108,13 @@ impl Camera {
                 (Vec3::ZERO, Vec3::new(sin_longitude * cos_latitude, sin_latitude, -cos_longitude * cos_latitude))
             }
         };
-        Ray::new(self.origin + self.rotation * o, (self.rotation * d).normalize())
+        Ray::new(self.origin + self.rotation * Vec3A::from(o), (self.rotation * Vec3A::from(d)).normalize())
     }
 
     /// The film point \[px\] where the world point `p` is seen (through the middle of a lens), inside the film or not;
     /// `None` where it lies behind the camera or at its origin.
-    pub fn project(&self, p: Vec3) -> Option<Vec2> {
-        let p = self.rotation.transpose() * (p - self.origin);
+    pub fn project(&self, p: impl Into<Vec3A>) -> Option<Vec2> {
+        let p = Vec3::from(self.rotation.transpose() * (p.into() - self.origin));
         let window = match self.kind {
             Kind::Pinhole { half } | Kind::ThinLens { half, .. } if p.z < 0.0 => p.truncate() / (-p.z * half),
             Kind::Orthographic { half } if p.z <= 0.0 => p.truncate() / half,
@@ -130,7 +130,7 @@ impl Camera {
     }
 
     /// Direction in which the camera looks, unit.
-    pub fn axis(&self) -> Vec3 {
+    pub fn axis(&self) -> Vec3A {
         -self.rotation.z_axis
     }
 

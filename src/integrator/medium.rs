@@ -7,7 +7,7 @@ use crate::medium::Inside;
 use crate::sampler::Sampler;
 use crate::scene::{Interface, Vertex};
 use crate::spectrum::Spectrum;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Lanes of their own wavelength; the fourth has the second's.
 const LANES: usize = 3;
@@ -24,13 +24,13 @@ pub struct Sides<'a> {
 impl<'a> Sides<'a> {
     /// Where the world direction `wi` leads from `vertex`.
     #[inline]
-    pub fn towards(&self, vertex: &Vertex, wi: Vec3) -> &'a Inside {
+    pub fn towards(&self, vertex: &Vertex, wi: Vec3A) -> &'a Inside {
         self.changed(vertex, wi).unwrap_or(self.here)
     }
 
     /// The same, where it is not where the path came from.
     #[inline]
-    pub fn changed(&self, vertex: &Vertex, wi: Vec3) -> Option<&'a Inside> {
+    pub fn changed(&self, vertex: &Vertex, wi: Vec3A) -> Option<&'a Inside> {
         self.across.filter(|_| (wi.dot(vertex.surface.ng) > 0.0) != vertex.front)
     }
 }

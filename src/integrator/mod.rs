@@ -115,7 +115,7 @@ pub fn radiance<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: &Shading) {
     sample.alpha = 1.0;
     sample.depth = (vertex.surface.p - ray.o).length();
-    sample.normal = if vertex.front { shading.frame.n } else { -shading.frame.n };
+    sample.normal = if vertex.front { shading.frame.n } else { -shading.frame.n }.into();
     sample.albedo = shading.bsdf.albedo(shading.wo);
 }
 

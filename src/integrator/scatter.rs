@@ -25,7 +25,7 @@ use crate::sampler::Sampler;
 use crate::scene::{Shading, Vertex};
 use crate::spectrum::Spectrum;
 use crate::warp::cosine_hemisphere;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f32::consts::FRAC_1_PI;
 
 /// The next direction of a path.
@@ -59,7 +59,7 @@ pub struct Stray {
 impl Stray {
     /// Its f' |cos θ| towards the world direction `wi`, and the part that specular lobes give.
     #[inline]
-    pub(super) fn towards(&self, vertex: &Vertex, wi: Vec3) -> (Spectrum, Spectrum) {
+    pub(super) fn towards(&self, vertex: &Vertex, wi: Vec3A) -> (Spectrum, Spectrum) {
         let share = (wi.dot(vertex.surface.ng) * self.side).max(0.0) * FRAC_1_PI;
         (self.weight * share, self.specular * share)
     }
@@ -101,7 +101,7 @@ pub(super) fn draw(
 
 /// Where strayed light leaves: by the cosine.
 struct Again {
-    wi: Vec3,
+    wi: Vec3A,
     pdf: f32,
     /// Albedo of the neighbour.
     rho: Spectrum,
@@ -110,7 +110,7 @@ struct Again {
 /// How a draw that strayed, of direction `wi` (`local` in the frame), leaves again.
 #[cold]
 #[inline(never)]
-fn astray(vertex: &Vertex, shading: &Shading, local: Vec3, wi: Vec3, sampler: &mut Sampler) -> Option<Again> {
+fn astray(vertex: &Vertex, shading: &Shading, local: Vec3, wi: Vec3A, sampler: &mut Sampler) -> Option<Again> {
     if local.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
         return None;
     }

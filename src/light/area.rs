@@ -1,13 +1,13 @@
 //! From density over area to density over solid angle, and where shadow rays end.
 
 use crate::math::UNIT_ROUNDOFF;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// How a point of a surface is seen from a reference point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Sight {
     /// Unit direction to the point.
-    pub wi: Vec3,
+    pub wi: Vec3A,
     /// Distance \[m\].
     pub distance: f32,
     /// Cosine at the seen surface: positive where its front is seen.
@@ -17,7 +17,7 @@ pub(super) struct Sight {
 impl Sight {
     /// `None` where the points coincide or the surface is seen edge-on.
     #[inline(always)]
-    pub(super) fn new(reference: Vec3, p: Vec3, ng: Vec3) -> Option<Self> {
+    pub(super) fn new(reference: Vec3A, p: Vec3A, ng: Vec3A) -> Option<Self> {
         let to = p - reference;
         let distance = to.length();
         let wi = to * distance.recip();
@@ -37,7 +37,7 @@ impl Sight {
     /// along the ray. δ counts the offset of the origin and the error of a point interpolated in a triangle, 16 ulp
     /// of either point, and 4 ulp of the distance for the direction.
     #[inline]
-    pub(super) fn shadow_end(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+    pub(super) fn shadow_end(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
         let coordinates = (reference.abs() + p.abs()).dot(ng.abs());
         let delta = UNIT_ROUNDOFF * (16.0 * coordinates + 4.0 * self.distance);
         (self.distance - delta / self.cos.abs()).max(0.0)

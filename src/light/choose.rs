@@ -4,7 +4,7 @@ use super::{Choice, Light, LightSample, Receiver};
 use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 use std::cell::OnceCell;
 
 /// Most look-ups into the textures of emissive triangles, all together.
@@ -76,7 +76,7 @@ impl Lights {
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws the point `p`, with geometric
     /// normal `ng`, of area light number `light`.
     #[inline]
-    pub fn pdf_hit(&self, light: u32, receiver: &Receiver, p: Vec3, ng: Vec3) -> f32 {
+    pub fn pdf_hit(&self, light: u32, receiver: &Receiver, p: Vec3A, ng: Vec3A) -> f32 {
         self.choice(light, receiver) * self.lights[light as usize].pdf(receiver.p, p, ng)
     }
 
@@ -101,19 +101,19 @@ impl Lights {
 
     /// Radiance that arrives along a ray that met nothing, from the unit vector `wi`.
     #[inline]
-    pub fn environment_le(&self, wi: Vec3) -> Spectrum {
+    pub fn environment_le(&self, wi: Vec3A) -> Spectrum {
         self.environments().map(|(_, light)| light.le_from(wi)).sum()
     }
 
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws `wi` from the environments.
     #[inline]
-    pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3) -> f32 {
+    pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3A) -> f32 {
         self.environment_le_and_pdf(receiver, wi).1
     }
 
     /// Both of these at once.
     #[inline(never)]
-    pub fn environment_le_and_pdf(&self, receiver: &Receiver, wi: Vec3) -> (Spectrum, f32) {
+    pub fn environment_le_and_pdf(&self, receiver: &Receiver, wi: Vec3A) -> (Spectrum, f32) {
         self.environments().fold((Spectrum::ZERO, 0.0), |(le, pdf), (i, light)| {
             let (own_le, own_pdf) = light.le_and_pdf_from(wi);
             // What a sun's disk does not cover need not be asked for its choice.

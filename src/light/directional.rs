@@ -4,20 +4,20 @@ use super::LightSample;
 use crate::bsdf::Pdf;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f32::consts::PI;
 
 /// Light that travels along one direction everywhere.
 #[derive(Clone, Copy, Debug)]
 pub struct DirectionalLight {
-    direction: Vec3,
+    direction: Vec3A,
     irradiance: Spectrum,
 }
 
 impl DirectionalLight {
     /// Travels along the unit vector `direction` with linear RGB irradiance on what faces it \[W/m²\].
     pub fn new(direction: Vec3, irradiance: [f32; 3]) -> Self {
-        Self { direction, irradiance: Spectrum::from_rgb(irradiance) }
+        Self { direction: direction.into(), irradiance: Spectrum::from_rgb(irradiance) }
     }
 
     /// E⊥, from the one direction there is.

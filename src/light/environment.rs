@@ -6,7 +6,7 @@ use crate::desc;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
 use crate::warp::{Table2, UNIFORM_SPHERE_PDF, uniform_sphere};
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec3, Vec3A};
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::f64::consts as f64s;
 
@@ -55,7 +55,7 @@ impl Environment {
 
     /// Lₑ \[W·sr⁻¹·m⁻²\] that arrives from the unit vector `wi`.
     #[inline]
-    pub fn le(&self, wi: Vec3) -> Spectrum {
+    pub fn le(&self, wi: Vec3A) -> Spectrum {
         match &self.texels {
             None => self.radiance,
             Some(texels) => texels.radiance_at(texels.find(self.to_local(wi))),
@@ -64,7 +64,7 @@ impl Environment {
 
     /// Density over solid angle with which [`sample`](Self::sample) draws `wi`.
     #[inline]
-    pub fn pdf(&self, wi: Vec3) -> f32 {
+    pub fn pdf(&self, wi: Vec3A) -> f32 {
         match &self.texels {
             None => UNIFORM_SPHERE_PDF,
             Some(texels) => texels.pdf_at(texels.find(self.to_local(wi))),
@@ -73,7 +73,7 @@ impl Environment {
 
     /// [`le`](Self::le) and [`pdf`](Self::pdf) of the same direction.
     #[inline]
-    pub fn le_and_pdf(&self, wi: Vec3) -> (Spectrum, f32) {
+    pub fn le_and_pdf(&self, wi: Vec3A) -> (Spectrum, f32) {
         match &self.texels {
             None => (self.radiance, UNIFORM_SPHERE_PDF),
             Some(texels) => {
@@ -90,7 +90,7 @@ impl Environment {
             None => (uniform_sphere(u), self.radiance, UNIFORM_SPHERE_PDF),
             Some(texels) => texels.sample(u)?,
         };
-        let wi = self.to_world * local;
+        let wi = (self.to_world * local).into();
         let pdf = Pdf::SolidAngle(pdf);
         (!le.is_black()).then_some(LightSample { wi, distance: f32::INFINITY, le, pdf })
     }
@@ -109,9 +109,9 @@ impl Environment {
     }
 
     #[inline]
-    fn to_local(&self, wi: Vec3) -> Vec3 {
+    fn to_local(&self, wi: Vec3A) -> Vec3 {
         // The transpose of a rotation is its inverse.
-        self.to_world.transpose_mul_vec3(wi)
+        self.to_world.transpose_mul_vec3(wi.into())
     }
 }
 

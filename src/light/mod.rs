@@ -46,14 +46,14 @@ use crate::math::Ray;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3A, Vec4};
 use tree::LightBounds;
 
 /// Light drawn towards a point: Lₑ (or intensity over squared distance, or irradiance) that arrives from `wi`.
 #[derive(Clone, Copy, Debug)]
 pub struct LightSample {
     /// Direction from the point to the light, unit, world space.
-    pub wi: Vec3,
+    pub wi: Vec3A,
     /// Where a shadow ray along `wi` may end \[m\]: short of the light by the error bound of its distance, so that the
     /// light's own surface is not met; infinite for light from infinity.
     pub distance: f32,
@@ -109,7 +109,7 @@ impl Light {
 
     /// Draws light that arrives at `p`, nothing in between considered; `None` where the draw carries none.
     #[inline(always)]
-    pub fn sample(&self, p: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+    pub fn sample(&self, p: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         match self {
             Self::Triangle(light) => light.sample(p, u, textures),
             other => other.sample_large(p, u, textures),
@@ -118,7 +118,7 @@ impl Light {
 
     /// The same of all but triangles: apart from these, so that they do not pass through memory for its sake.
     #[inline(never)]
-    fn sample_large(&self, p: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+    fn sample_large(&self, p: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         match self {
             Self::Triangle(light) => light.sample(p, u, textures),
             Self::Quadric(light) => light.sample(p, u, textures),
@@ -134,7 +134,7 @@ impl Light {
     /// Density over solid angle \[1/sr\] with which [`sample`](Self::sample) at `reference` draws the direction to
     /// the point `p` of this area light, whose geometric normal there is `ng` (either side); 0 for other lights.
     #[inline]
-    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+    pub fn pdf(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
         match self {
             Self::Triangle(light) => light.pdf(reference, p, ng),
             Self::Quadric(light) => light.pdf(reference, p, ng),
@@ -210,7 +210,7 @@ impl Light {
 
     /// Radiance from infinity along the unit vector `wi`; 0 of other lights.
     #[inline]
-    pub fn le_from(&self, wi: Vec3) -> Spectrum {
+    pub fn le_from(&self, wi: Vec3A) -> Spectrum {
         match self {
             Self::Environment(light) => light.le(wi),
             Self::Sun(light) => light.le(wi),
@@ -220,7 +220,7 @@ impl Light {
 
     /// The same with the density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity.
     #[inline]
-    pub fn le_and_pdf_from(&self, wi: Vec3) -> (Spectrum, f32) {
+    pub fn le_and_pdf_from(&self, wi: Vec3A) -> (Spectrum, f32) {
         match self {
             Self::Environment(light) => light.le_and_pdf(wi),
             Self::Sun(light) => (light.le(wi), light.pdf(wi)),

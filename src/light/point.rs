@@ -5,13 +5,13 @@ use super::tree::LightBounds;
 use crate::bsdf::Pdf;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f32::consts::PI;
 
 /// Radiates the same intensity in all directions.
 #[derive(Clone, Copy, Debug)]
 pub struct PointLight {
-    position: Vec3,
+    position: Vec3A,
     intensity: Spectrum,
     range: f32,
 }
@@ -19,12 +19,12 @@ pub struct PointLight {
 impl PointLight {
     /// At `position` with linear RGB intensity \[W/sr\]; it ends at the distance `range`, which may be infinite.
     pub fn new(position: Vec3, intensity: [f32; 3], range: f32) -> Self {
-        Self { position, intensity: Spectrum::from_rgb(intensity), range }
+        Self { position: position.into(), intensity: Spectrum::from_rgb(intensity), range }
     }
 
     /// E⊥ = I/r², from the one direction there is.
     #[inline]
-    pub fn sample(&self, p: Vec3) -> Option<LightSample> {
+    pub fn sample(&self, p: Vec3A) -> Option<LightSample> {
         sample_position(self.position, p, self.range, |_| self.intensity)
     }
 
@@ -43,10 +43,10 @@ impl PointLight {
 /// ends it: E⊥ = (I/r²) clamp(1 − (r/range)⁴, 0, 1), which KHR_lights_punctual recommends for the end that it requires.
 #[inline]
 pub(super) fn sample_position(
-    position: Vec3,
-    p: Vec3,
+    position: Vec3A,
+    p: Vec3A,
     range: f32,
-    intensity: impl FnOnce(Vec3) -> Spectrum,
+    intensity: impl FnOnce(Vec3A) -> Spectrum,
 ) -> Option<LightSample> {
     let to = position - p;
     let distance2 = to.length_squared();

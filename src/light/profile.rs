@@ -5,7 +5,7 @@ use super::point::sample_position;
 use super::tree::LightBounds;
 use crate::desc::ies::{Photometry, Profile};
 use crate::spectrum::Spectrum;
-use glam::{Mat3, Vec3};
+use glam::{Mat3, Vec3, Vec3A};
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 use std::sync::Arc;
 
@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// the horizontal one is that above the plane of x and z. This is the frame of EXT_lights_ies.
 #[derive(Clone, Debug)]
 pub struct ProfileLight {
-    position: Vec3,
+    position: Vec3A,
     to_local: Mat3,
     /// Factor on the candelas.
     intensity: Spectrum,
@@ -30,12 +30,18 @@ impl ProfileLight {
     /// At `position`, turned by the rotation `to_world`, its candelas times linear RGB.
     pub fn new(position: Vec3, to_world: Mat3, intensity: [f32; 3], profile: Arc<Profile>) -> Self {
         let mean = mean(&profile);
-        Self { position, to_local: to_world.transpose(), intensity: Spectrum::from_rgb(intensity), profile, mean }
+        Self {
+            position: position.into(),
+            to_local: to_world.transpose(),
+            intensity: Spectrum::from_rgb(intensity),
+            profile,
+            mean,
+        }
     }
 
     /// E⊥ = I(ω)/r².
     #[inline]
-    pub fn sample(&self, p: Vec3) -> Option<LightSample> {
+    pub fn sample(&self, p: Vec3A) -> Option<LightSample> {
         sample_position(self.position, p, f32::INFINITY, |w| self.intensity * candela(&self.profile, self.to_local * w))
     }
 
@@ -63,7 +69,7 @@ fn mean(profile: &Profile) -> f32 {
         let (sin, cos) = theta(f64::from(row) + 0.5).sin_cos();
         for column in 0..COLUMNS {
             let phi = std::f64::consts::TAU * (f64::from(column) + 0.5) / f64::from(COLUMNS);
-            let w = Vec3::new((sin * phi.cos()) as f32, (sin * phi.sin()) as f32, -cos as f32);
+            let w = Vec3A::new((sin * phi.cos()) as f32, (sin * phi.sin()) as f32, -cos as f32);
             sum += share * f64::from(candela(profile, w));
         }
     }
@@ -73,7 +79,7 @@ fn mean(profile: &Profile) -> f32 {
 /// Intensity \[cd\] towards the unit vector `w` of the light's frame: bilinear between the angles measured, 0 where none
 /// was.
 #[inline]
-fn candela(profile: &Profile, w: Vec3) -> f32 {
+fn candela(profile: &Profile, w: Vec3A) -> f32 {
     let (vertical, horizontal) = match profile.kind {
         Photometry::C => (w.x.hypot(w.y).atan2(-w.z), folded(profile, w.y.atan2(w.x))),
         Photometry::A => (w.x.atan2(w.y.hypot(w.z)), (-w.y).atan2(-w.z)),

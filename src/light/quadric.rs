@@ -10,7 +10,7 @@ use crate::shape::{PlacedQuadric, Quadric};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use crate::warp::{uniform_cone, uniform_cone_pdf};
-use glam::{DVec3, Vec3, Vec4};
+use glam::{DVec3, Vec3A, Vec4};
 use std::f64::consts::PI;
 
 /// A quadric that emits. Spheres seen from outside are sampled uniformly over the cone that they fill; everything else
@@ -44,13 +44,13 @@ impl QuadricLight {
     }
 
     /// Draws a point of the surface.
-    pub fn sample(&self, reference: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+    pub fn sample(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         let (point, cone_pdf) = match self.cap(reference) {
             // The nearer of the two points in which a direction of the cone meets the sphere:
             // t = (d − r)(d + r) / (d cos θ + √(r² − d² sin² θ)), which cancels nothing.
             Some((cap, r)) => {
                 let local = uniform_cone(u, cap.one_minus_cos);
-                let w = Frame::from_z(cap.axis.as_vec3()).to_world(local).as_dvec3();
+                let w = Frame::from_z(cap.axis.as_vec3a()).to_world(local).as_dvec3();
                 let sin2 = local.truncate().as_dvec2().length_squared();
                 let half_chord = (r * r - cap.distance * cap.distance * sin2).max(0.0).sqrt();
                 let t = cap.tangent2 / (cap.distance * f64::from(local.z) + half_chord);
@@ -73,7 +73,7 @@ impl QuadricLight {
     }
 
     /// Density over solid angle of [`sample`](Self::sample) for its point `p` with normal `ng`.
-    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+    pub fn pdf(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
         match self.cap(reference) {
             Some((cap, _)) => {
                 // The far side is never drawn.
@@ -107,7 +107,7 @@ impl QuadricLight {
     }
 
     /// The sphere as seen from `reference`, with its radius; `None` from inside, and for what is no sphere.
-    fn cap(&self, reference: Vec3) -> Option<(Cap, f64)> {
+    fn cap(&self, reference: Vec3A) -> Option<(Cap, f64)> {
         let (center, r) = self.sphere?;
         let to = center - reference.as_dvec3();
         let distance = to.length();

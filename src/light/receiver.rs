@@ -1,12 +1,12 @@
 //! Who asks for light.
 
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A point that light is drawn towards, with what is known of the directions that matter there.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Receiver {
     /// The point.
-    pub p: Vec3,
+    pub p: Vec3A,
     /// What it faces.
     pub facing: Facing,
 }
@@ -17,15 +17,15 @@ pub enum Facing {
     /// All alike.
     All,
     /// The half-space of this unit vector, weighted by the cosine to it: what only reflects.
-    Half(Vec3),
+    Half(Vec3A),
     /// Both sides, weighted by the cosine to this unit vector: what transmits too.
-    Both(Vec3),
+    Both(Vec3A),
 }
 
 impl Receiver {
     /// A point that light reaches from all directions alike.
     #[inline]
-    pub fn anywhere(p: Vec3) -> Self {
-        Self { p, facing: Facing::All }
+    pub fn anywhere(p: impl Into<Vec3A>) -> Self {
+        Self { p: p.into(), facing: Facing::All }
     }
 }

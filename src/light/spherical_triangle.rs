@@ -1,6 +1,6 @@
 //! Spherical triangles: solid angle and uniform sampling.
 
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 use std::f64::consts::PI;
 
 /// Least solid angle \[sr\] that is sampled: below it a triangle is tiny or seen edge-on, where its angles on the
@@ -28,7 +28,7 @@ impl SphericalTriangle {
     ///
     /// tan(Ω/2) = |a·(b × c)| / (1 + a·b + b·c + c·a) (Van Oosterom & Strackee 1983).
     #[inline]
-    pub fn new(p: &[Vec3; 3], reference: Vec3) -> Option<Self> {
+    pub fn new(p: &[Vec3A; 3], reference: Vec3A) -> Option<Self> {
         let o = reference.as_dvec3();
         // A corner at the reference point makes NaN, which fails the comparison below.
         let [a, b, c] = p.map(|p| (p.as_dvec3() - o).normalize());

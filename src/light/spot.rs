@@ -5,14 +5,14 @@ use super::point::sample_position;
 use super::tree::LightBounds;
 use crate::math::sqr;
 use crate::spectrum::Spectrum;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f32::consts::TAU;
 
 /// A point light confined to a cone, with the fall-off of KHR_lights_punctual.
 #[derive(Clone, Copy, Debug)]
 pub struct SpotLight {
-    position: Vec3,
-    direction: Vec3,
+    position: Vec3A,
+    direction: Vec3A,
     intensity: Spectrum,
     cos_inner: f32,
     cos_outer: f32,
@@ -24,8 +24,8 @@ impl SpotLight {
     /// \[rad\]; it ends at the distance `range`, which may be infinite.
     pub fn new(position: Vec3, direction: Vec3, intensity: [f32; 3], [inner, outer]: [f32; 2], range: f32) -> Self {
         Self {
-            position,
-            direction,
+            position: position.into(),
+            direction: direction.into(),
             intensity: Spectrum::from_rgb(intensity),
             cos_inner: inner.cos(),
             cos_outer: outer.cos(),
@@ -35,7 +35,7 @@ impl SpotLight {
 
     /// E⊥ = I f(θ)/r².
     #[inline]
-    pub fn sample(&self, p: Vec3) -> Option<LightSample> {
+    pub fn sample(&self, p: Vec3A) -> Option<LightSample> {
         sample_position(self.position, p, self.range, |w| self.intensity * self.falloff(w.dot(self.direction)))
     }
 
@@ -60,8 +60,8 @@ impl SpotLight {
     pub(super) fn bounds(&self) -> LightBounds {
         let (inner, outer) = (f64::from(self.cos_inner).acos(), f64::from(self.cos_outer).acos());
         LightBounds {
-            min: self.position,
-            max: self.position,
+            min: self.position.into(),
+            max: self.position.into(),
             axis: self.direction.as_dvec3(),
             spread: inner,
             fade: (outer - inner).max(0.0),

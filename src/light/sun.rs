@@ -5,7 +5,7 @@ use crate::bsdf::Pdf;
 use crate::math::{Frame, sqr};
 use crate::spectrum::Spectrum;
 use crate::warp::{one_minus_cos_of_sin2, uniform_cone, uniform_cone_pdf};
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f32::consts::PI;
 
 /// Light of constant radiance from the directions of a narrow cone: E⊥ = L π sin²α with its half-angle α, exactly as of
@@ -43,19 +43,19 @@ impl SunLight {
 
     /// Lₑ that arrives from the unit vector `wi`.
     #[inline]
-    pub fn le(&self, wi: Vec3) -> Spectrum {
+    pub fn le(&self, wi: Vec3A) -> Spectrum {
         if self.covers(wi) { self.radiance } else { Spectrum::ZERO }
     }
 
     /// Density over solid angle with which [`sample`](Self::sample) draws `wi`.
     #[inline]
-    pub fn pdf(&self, wi: Vec3) -> f32 {
+    pub fn pdf(&self, wi: Vec3A) -> f32 {
         if self.covers(wi) { uniform_cone_pdf(self.one_minus_cos) } else { 0.0 }
     }
 
     /// |ω − axis|² = 2(1 − cos θ), which keeps its precision near the axis.
     #[inline]
-    fn covers(&self, wi: Vec3) -> bool {
+    fn covers(&self, wi: Vec3A) -> bool {
         wi.distance_squared(self.frame.n) <= 2.0 * self.one_minus_cos
     }
 

@@ -14,7 +14,7 @@ use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use crate::warp::to_unit;
 use crate::warp::uniform_triangle;
-use glam::{DVec3, Vec2, Vec3, Vec4};
+use glam::{DVec3, Vec2, Vec3, Vec3A, Vec4};
 use std::f32::consts::PI;
 
 /// Reference points nearer than this many radii of the triangle (about its centroid) sample it by solid angle, farther
@@ -31,10 +31,10 @@ const GRADIENT: f32 = 16.0;
 /// A triangle that emits.
 #[derive(Clone, Debug)]
 pub struct TriangleLight {
-    p: [Vec3; 3],
-    ng: Vec3,
+    p: [Vec3A; 3],
+    ng: Vec3A,
     area: f32,
-    centroid: Vec3,
+    centroid: Vec3A,
     /// Square of the distance from the centroid within which it is sampled by solid angle.
     near2: f32,
     /// How it emits.
@@ -59,8 +59,9 @@ impl TriangleLight {
     /// World-space triangle `p`, its front to the side from which it runs counter-clockwise, or to the other with
     /// `flip`; `None` where it has no area.
     pub fn new(p: [Vec3; 3], attributes: &TriangleAttributes, flip: bool, emission: &desc::Emission) -> Option<Self> {
-        let front = triangle_normal(p)?;
+        let front = Vec3A::from(triangle_normal(p)?);
         let area = triangle_area(p);
+        let p = p.map(Vec3A::from);
         let centroid = p[0] / 3.0 + p[1] / 3.0 + p[2] / 3.0;
         let radius2 = p.iter().map(|p| p.distance_squared(centroid)).fold(0.0, f32::max);
         let emitter = Emitter::new(emission);
@@ -99,7 +100,7 @@ impl TriangleLight {
 
     /// Draws a point of the triangle: by solid angle from near, by area from afar; or by how brightly its parts shine.
     #[inline(always)]
-    pub fn sample(&self, reference: Vec3, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
+    pub fn sample(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         // Nothing is emitted to the back.
         let front = self.ng.dot(reference - self.p[0]) > 0.0;
         if !self.emitter.emits(front) {
@@ -129,7 +130,7 @@ impl TriangleLight {
 
     /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density.
     #[inline(always)]
-    fn sample_plain(&self, reference: Vec3, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
+    fn sample_plain(&self, reference: Vec3A, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
         if self.is_near(reference)
             && let Some(spherical) = SphericalTriangle::new(&self.p, reference)
         {
@@ -144,12 +145,12 @@ impl TriangleLight {
     fn sample_spherical(
         &self,
         spherical: &SphericalTriangle,
-        reference: Vec3,
+        reference: Vec3A,
         u: [f32; 2],
     ) -> Option<([f32; 2], Sight, f32, f32)> {
         let w = spherical.sample(u);
         let (u, v, distance) = self.along(reference, w)?;
-        let wi = w.as_vec3();
+        let wi = w.as_vec3a();
         let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
         let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
         Some(([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32))
@@ -157,7 +158,7 @@ impl TriangleLight {
 
     /// How the point with these weights is seen, and where the shadow ray to it ends.
     #[inline(always)]
-    fn sight(&self, reference: Vec3, [u, v]: [f32; 2]) -> Option<(Sight, f32)> {
+    fn sight(&self, reference: Vec3A, [u, v]: [f32; 2]) -> Option<(Sight, f32)> {
         let p = interpolate(self.p, u, v);
         let sight = Sight::new(reference, p, self.ng)?;
         Some((sight, sight.shadow_end(reference, p, self.ng)))
@@ -165,7 +166,7 @@ impl TriangleLight {
 
     /// Density over solid angle of [`sample`](Self::sample) for its point `p`.
     #[inline]
-    pub fn pdf(&self, reference: Vec3, p: Vec3, ng: Vec3) -> f32 {
+    pub fn pdf(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
         let Some(sight) = Sight::new(reference, p, ng) else { return 0.0 };
         let plain = self.pdf_plain(reference, &sight);
         if self.cells().is_none() { plain } else { self.pdf_mixed(plain, &sight, self.weights(p)) }
@@ -173,7 +174,7 @@ impl TriangleLight {
 
     /// Density of [`sample_plain`](Self::sample_plain).
     #[inline]
-    fn pdf_plain(&self, reference: Vec3, sight: &Sight) -> f32 {
+    fn pdf_plain(&self, reference: Vec3A, sight: &Sight) -> f32 {
         match self.spherical(reference) {
             Some(spherical) => (1.0 / spherical.solid_angle()) as f32,
             None => sight.solid_angle_pdf(1.0 / self.area),
@@ -199,7 +200,7 @@ impl TriangleLight {
 
     /// Weights of the second and third vertex at a point of the triangle.
     #[inline]
-    fn weights(&self, p: Vec3) -> [f32; 2] {
+    fn weights(&self, p: Vec3A) -> [f32; 2] {
         let [a, b, c] = self.p.map(|p| p.as_dvec3());
         let (e1, e2, s) = (b - a, c - a, p.as_dvec3() - a);
         let (d11, d12, d22) = (e1.dot(e1), e1.dot(e2), e2.dot(e2));
@@ -229,26 +230,26 @@ impl TriangleLight {
 
     /// Where `ray` meets it.
     pub fn intersect(&self, ray: &Ray) -> Option<(f32, Surface)> {
-        let hit = intersect_triangle(ray, self.p)?;
+        let hit = intersect_triangle(ray, self.p.map(Vec3::from))?;
         let attributes = self.attributes.as_deref().copied().unwrap_or_default();
-        Some((hit.t, triangle_surface(self.p, hit.u, hit.v, &attributes, self.flip)))
+        Some((hit.t, triangle_surface(self.p.map(Vec3::from), hit.u, hit.v, &attributes, self.flip)))
     }
 
     /// The triangle on the sphere about `reference`, where it is sampled by solid angle.
     #[inline]
-    fn spherical(&self, reference: Vec3) -> Option<SphericalTriangle> {
+    fn spherical(&self, reference: Vec3A) -> Option<SphericalTriangle> {
         if self.is_near(reference) { SphericalTriangle::new(&self.p, reference) } else { None }
     }
 
     #[inline]
-    fn is_near(&self, reference: Vec3) -> bool {
+    fn is_near(&self, reference: Vec3A) -> bool {
         reference.distance_squared(self.centroid) < self.near2
     }
 
     /// Weights of the second and third vertex where direction `w` from `reference` meets the triangle, and the
     /// distance. Rounding beyond an edge is brought back.
     #[inline]
-    fn along(&self, reference: Vec3, w: DVec3) -> Option<(f32, f32, f32)> {
+    fn along(&self, reference: Vec3A, w: DVec3) -> Option<(f32, f32, f32)> {
         let [a, b, c] = self.p.map(|p| p.as_dvec3());
         let (e1, e2, s) = (b - a, c - a, reference.as_dvec3() - a);
         let (h, q) = (w.cross(e2), s.cross(e1));

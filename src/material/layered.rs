@@ -15,7 +15,7 @@ use crate::desc::{self, NormalMap, Roughness};
 use crate::math::Frame;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
-use glam::{Vec2, Vec3};
+use glam::{Vec2, Vec3, Vec3A};
 
 /// F₀ of the index 1.5.
 const COAT_F0: f32 = 0.04;
@@ -120,7 +120,7 @@ fn direction(a: &desc::Anisotropy, at: Point) -> Frame {
         (rg * 2.0 - Vec2::ONE).normalize_or(Vec2::X)
     });
     let along = Vec2::from_angle(a.rotation).rotate(along);
-    Frame { s: along.extend(0.0), t: along.perp().extend(0.0), n: Vec3::Z }
+    Frame { s: along.extend(0.0).into(), t: along.perp().extend(0.0).into(), n: Vec3A::Z }
 }
 
 /// Normal of the coat in the shading frame; `None` where it is the same as that of the base.

@@ -23,7 +23,7 @@ use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use classic::{Conductor, Dielectric};
 use cook_torrance::CookTorrance;
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 pub use interior::interior;
 use layered::{Layered, Lie};
 use metallic_roughness::MetallicRoughness;
@@ -232,14 +232,14 @@ impl Material {
     /// Normal of the normal map, world space, unit, in the hemisphere of `ng`. `None` without a map, or where the
     /// surface has no tangent to turn it by.
     #[inline]
-    pub fn shading_normal(&self, s: &Surface, textures: &Textures) -> Option<Vec3> {
+    pub fn shading_normal(&self, s: &Surface, textures: &Textures) -> Option<Vec3A> {
         self.normal_map.as_ref().and_then(|map| tangent_space_normal(map, s, textures))
     }
 }
 
 #[inline(never)]
-fn tangent_space_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Vec3> {
-    if s.tangent == Vec3::ZERO {
+fn tangent_space_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Option<Vec3A> {
+    if s.tangent == Vec3A::ZERO {
         return None;
     }
     let rgb = textures.lookup(&map.texture, &s.uv).truncate();

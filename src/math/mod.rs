@@ -8,7 +8,7 @@ pub use frame::Frame;
 pub use ray::{Ray, offset_origin};
 pub use transform::Transform;
 
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Half the distance between 1 and the next f32: the largest relative error of one rounding.
 pub const UNIT_ROUNDOFF: f32 = f32::EPSILON * 0.5;
@@ -43,7 +43,7 @@ pub fn sin_cos_of_eighth(x: f32) -> (f32, f32) {
 
 /// `v` of length 1 but for rounding, made so: one step of Newton's for 1/√|v|².
 #[inline]
-pub fn renormalize(v: Vec3) -> Vec3 {
+pub fn renormalize(v: Vec3A) -> Vec3A {
     v * (1.5 - 0.5 * v.length_squared())
 }
 
@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn what_is_nearly_of_unit_length_becomes_so() {
-        let v = Vec3::new(0.48, -0.6, 0.64);
+        let v = Vec3A::new(0.48, -0.6, 0.64);
         for scale in [0.9999, 1.0, 1.0001] {
             assert!((renormalize(v * scale).length() - 1.0).abs() < 2e-7);
         }

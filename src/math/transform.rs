@@ -1,6 +1,6 @@
 //! Affine maps with their inverses.
 
-use glam::{Affine3A, Mat4, Vec3};
+use glam::{Affine3A, Mat4, Vec3A};
 
 /// An invertible affine map between an object's space and the world.
 #[derive(Clone, Copy, Debug)]
@@ -23,8 +23,8 @@ impl Transform {
 
     /// A normal (covector) to the world, not normalised.
     #[inline]
-    pub fn normal_to_world(&self, n: Vec3) -> Vec3 {
-        self.to_object.matrix3.transpose() * n
+    pub fn normal_to_world(&self, n: impl Into<Vec3A>) -> Vec3A {
+        self.to_object.matrix3.transpose() * n.into()
     }
 
     /// True where the map mirrors: it turns a right-handed frame into a left-handed one.

@@ -213,7 +213,7 @@ fn to_world(shared: &Arc<Mesh>, transform: &Transform) -> Arc<Mesh> {
     }
     let mut mesh = Mesh::clone(shared);
     mesh.positions.iter_mut().for_each(|p| *p = m.transform_point3(*p));
-    mesh.normals.iter_mut().for_each(|n| *n = transform.normal_to_world(*n).normalize_or_zero());
+    mesh.normals.iter_mut().for_each(|n| *n = transform.normal_to_world(*n).normalize_or_zero().into());
     mesh.tangents.iter_mut().for_each(|t| *t = m.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w));
     Arc::new(mesh)
 }

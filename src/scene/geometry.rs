@@ -6,7 +6,7 @@ use crate::math::{Ray, Transform, gamma};
 use crate::shape::{
     PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, triangle_surface, with_attributes,
 };
-use glam::{Mat3A, Vec3, Vec4};
+use glam::{Mat3A, Vec3, Vec3A, Vec4};
 use std::sync::Arc;
 
 /// Whose a surface is.
@@ -233,7 +233,7 @@ impl Geometry {
         if !part.plain {
             return None;
         }
-        Some((flat_surface(self.world.vertices(&hit.triangle), u, v, ng), part.owner.of_triangle(triangle)))
+        Some((flat_surface(self.world.vertices(&hit.triangle), u, v, ng.into()), part.owner.of_triangle(triangle)))
     }
 
     /// The surface at any hit of `ray`, and whose it is.
@@ -242,7 +242,7 @@ impl Geometry {
         if hit.object == WORLD {
             let Origin { part, triangle, ng } = self.origin[triangle as usize];
             let part = &self.parts[part as usize];
-            let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng);
+            let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng.into());
             let (p, attributes) = corners(&part.mesh, triangle, part.owner.charted);
             let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
             return (surface, part.owner.of_triangle(triangle));
@@ -296,9 +296,9 @@ impl Instance {
     #[inline]
     fn ray(&self, ray: &Ray) -> (Ray, f32) {
         let m = &self.transform.to_object;
-        let o = m.transform_point3(ray.o);
-        let d = m.transform_vector3(ray.d);
-        let error = (abs(&m.matrix3) * ray.o.abs() + Vec3::from(m.translation).abs()) * gamma(4);
+        let o = m.transform_point3a(ray.o);
+        let d = m.transform_vector3a(ray.d);
+        let error = (abs(&m.matrix3) * ray.o.abs() + m.translation.abs()) * gamma(4);
         let shift = d.abs().dot(error) / d.length_squared();
         (Ray { o: o + d * shift, d, t_max: ray.t_max - shift }, shift)
     }
@@ -330,14 +330,14 @@ impl Instance {
         let (local, mut attributes) = corners(mesh, triangle, self.owner.charted);
         let p = local.map(|p| m.transform_point3(p));
         attributes.normals =
-            attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero()));
+            attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero().into()));
         attributes.tangents = attributes.tangents.map(|t| t.map(|t| m.transform_vector3(t.truncate()).extend(t.w)));
         let mut surface = triangle_surface(p, u, v, &attributes, self.flip);
         // Errors of the map to the world, and of the map back that the next ray takes.
         let reach = local.iter().fold(Vec3::ZERO, |r, p| r.max(p.abs()));
-        let outward = abs(&m.matrix3) * reach + Vec3::from(m.translation).abs();
+        let outward = abs(&m.matrix3) * Vec3A::from(reach) + m.translation.abs();
         let inverse = &self.transform.to_object;
-        let inward = abs(&inverse.matrix3) * surface.p.abs() + Vec3::from(inverse.translation).abs();
+        let inward = abs(&inverse.matrix3) * surface.p.abs() + inverse.translation.abs();
         surface.p_error += outward * gamma(4) + abs(&m.matrix3) * (inward * gamma(4));
         surface
     }

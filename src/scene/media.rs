@@ -7,7 +7,7 @@ use crate::math::{Ray, offset_origin};
 use crate::medium::{Inside, Interior, MOST_NESTED, Meeting};
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// Of a material whose surfaces enclose nothing.
 const NONE: u32 = u32::MAX;
@@ -120,16 +120,16 @@ impl Media {
 impl Scene {
     /// The interiors about a point: those whose surfaces are left more often than entered on the way to infinity, on
     /// every one of several ways, so that open surfaces enclose nothing.
-    pub fn inside(&self, p: Vec3) -> Inside {
+    pub fn inside(&self, p: Vec3A) -> Inside {
         /// Far from the axes and from each other.
-        const WAYS: [Vec3; 7] = [
-            Vec3::new(0.31, 0.86, 0.41),
-            Vec3::new(-0.53, 0.27, 0.80),
-            Vec3::new(0.73, -0.19, -0.66),
-            Vec3::new(-0.21, -0.92, 0.33),
-            Vec3::new(-0.68, 0.44, -0.59),
-            Vec3::new(0.39, 0.58, -0.71),
-            Vec3::new(0.58, -0.62, 0.53),
+        const WAYS: [Vec3A; 7] = [
+            Vec3A::new(0.31, 0.86, 0.41),
+            Vec3A::new(-0.53, 0.27, 0.80),
+            Vec3A::new(0.73, -0.19, -0.66),
+            Vec3A::new(-0.21, -0.92, 0.33),
+            Vec3A::new(-0.68, 0.44, -0.59),
+            Vec3A::new(0.39, 0.58, -0.71),
+            Vec3A::new(0.58, -0.62, 0.53),
         ];
         let mut inside = Inside::default();
         if self.media.interiors.is_empty() {
@@ -148,7 +148,7 @@ impl Scene {
     }
 
     /// The interiors that a ray leaves without having entered them, in order.
-    fn left(&self, p: Vec3, way: Vec3) -> ArrayVec<u32, MOST_NESTED> {
+    fn left(&self, p: Vec3A, way: Vec3A) -> ArrayVec<u32, MOST_NESTED> {
         let (mut ray, mut leaving) = (Ray::new(p, way.normalize()), Departure::NOWHERE);
         let (mut left, mut entered) = (ArrayVec::new(), vec![0u32; self.media.interiors.len()]);
         while let Some(hit) = self.geometry.nearest(&ray, leaving) {

@@ -21,7 +21,7 @@ use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use geometry::Owner;
-use glam::Vec3;
+use glam::Vec3A;
 
 /// A compiled scene.
 #[derive(Debug)]
@@ -67,7 +67,7 @@ pub struct Vertex {
     /// The point and its frame, world space.
     pub surface: Surface,
     /// Towards where the ray came from, unit, world space.
-    pub wo: Vec3,
+    pub wo: Vec3A,
     /// Which material.
     pub material: u32,
     /// Which light, where the surface emits.
@@ -82,7 +82,7 @@ impl Vertex {
     /// None yet.
     pub const NOWHERE: Self = Self {
         surface: Surface::NOWHERE,
-        wo: Vec3::ZERO,
+        wo: Vec3A::ZERO,
         material: 0,
         light: None,
         front: false,

@@ -6,7 +6,7 @@ use crate::light::{Facing, Receiver};
 use crate::material::Material;
 use crate::math::{Frame, Ray, offset_origin};
 use crate::texture::Textures;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 /// What scatters at a vertex. The frame's z is the shading normal on the front side.
 #[derive(Clone, Copy, Debug)]
@@ -50,7 +50,7 @@ impl<'a> Shading<'a> {
     /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the
     /// shading normal. Where they disagree light would leak through the surface, or reflection into it.
     #[inline]
-    pub fn agrees(&self, vertex: &Vertex, wi: Vec3, local: Vec3) -> bool {
+    pub fn agrees(&self, vertex: &Vertex, wi: Vec3A, local: Vec3) -> bool {
         wi.dot(vertex.surface.ng) * local.z > 0.0
     }
 
@@ -75,13 +75,13 @@ impl<'a> Shading<'a> {
 
     /// Density \[1/sr\] that stands for strayed light towards the world direction `wi`.
     #[inline]
-    pub fn stray_pdf(&self, vertex: &Vertex, wi: Vec3) -> f32 {
+    pub fn stray_pdf(&self, vertex: &Vertex, wi: Vec3A) -> f32 {
         self.stray * wi.dot(vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
     }
 
     /// The ray that leaves along the world direction `wi`, off the surface by its error bound.
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, wi: Vec3) -> Ray {
+    pub fn leave(&self, vertex: &Vertex, wi: Vec3A) -> Ray {
         let s = &vertex.surface;
         Ray::new(offset_origin(s.p, s.p_error, s.ng, wi), wi)
     }
@@ -91,7 +91,7 @@ impl<'a> Shading<'a> {
 /// silhouette may look away; they are turned towards `wo` until they see it at a grazing angle, instead of leaving
 /// a black rim.
 #[inline]
-fn facing(ns: Vec3, wo: Vec3, front: bool) -> Vec3 {
+fn facing(ns: Vec3A, wo: Vec3A, front: bool) -> Vec3A {
     /// Cosine of the grazing angle.
     const GRAZING: f32 = 0.01;
     let side = if front { 1.0 } else { -1.0 };
@@ -108,10 +108,10 @@ mod tests {
 
     #[test]
     fn normals_that_look_away_are_turned_to_a_grazing_view() {
-        let wo = Vec3::new(0.6, 0.0, 0.8);
-        let away = Vec3::new(-0.9, 0.1, 0.2).normalize();
+        let wo = Vec3A::new(0.6, 0.0, 0.8);
+        let away = Vec3A::new(-0.9, 0.1, 0.2).normalize();
         assert!(facing(away, wo, true).dot(wo) > 0.0);
         assert!(facing(-away, wo, false).dot(wo) < 0.0);
-        assert_eq!(facing(Vec3::Z, wo, true), Vec3::Z);
+        assert_eq!(facing(Vec3A::Z, wo, true), Vec3A::Z);
     }
 }

@@ -15,21 +15,21 @@ pub use triangle::{
 };
 
 use crate::math::{Transform, gamma};
-use glam::{Vec2, Vec3, Vec3A, Vec4};
+use glam::{Vec2, Vec3A, Vec4};
 
 /// A point of a surface with what shading needs, in world space (or object space before it is placed).
 #[derive(Clone, Copy, Debug)]
 pub struct Surface {
     /// The point.
-    pub p: Vec3,
+    pub p: Vec3A,
     /// Absolute error bound of each coordinate of `p`.
-    pub p_error: Vec3,
+    pub p_error: Vec3A,
     /// Geometric normal, unit, towards the front side (whichever side the ray came from).
-    pub ng: Vec3,
+    pub ng: Vec3A,
     /// Shading normal, unit, in the hemisphere of `ng`.
-    pub ns: Vec3,
+    pub ns: Vec3A,
     /// Direction in which u grows; not normalised, 0 where unknown.
-    pub tangent: Vec3,
+    pub tangent: Vec3A,
     /// Sign of the bitangent: ns × tangent × handedness.
     pub handedness: f32,
     /// Texture coordinates, both sets.
@@ -41,11 +41,11 @@ pub struct Surface {
 impl Surface {
     /// None yet.
     pub const NOWHERE: Self = Self {
-        p: Vec3::ZERO,
-        p_error: Vec3::ZERO,
-        ng: Vec3::Z,
-        ns: Vec3::Z,
-        tangent: Vec3::ZERO,
+        p: Vec3A::ZERO,
+        p_error: Vec3A::ZERO,
+        ng: Vec3A::Z,
+        ns: Vec3A::Z,
+        tangent: Vec3A::ZERO,
         handedness: 1.0,
         uv: [Vec2::ZERO; 2],
         color: Vec4::ONE,
@@ -62,17 +62,17 @@ impl Surface {
     pub fn to_world(&self, transform: &Transform) -> Self {
         let (m, inverse) = (&transform.to_world, &transform.to_object);
         let (m_abs, inverse_abs) = (m.matrix3.abs(), inverse.matrix3.abs());
-        let p = m.transform_point3(self.p);
-        let forth = m_abs * Vec3A::from(self.p.abs()) + m.translation.abs();
-        let back = m_abs * (inverse_abs * Vec3A::from(p.abs()) + inverse.translation.abs());
-        let p_error = (1.0 + gamma(3)) * (m_abs * self.p_error) + gamma(3) * Vec3::from(forth);
+        let p = m.transform_point3a(self.p);
+        let forth = m_abs * self.p.abs() + m.translation.abs();
+        let back = m_abs * (inverse_abs * p.abs() + inverse.translation.abs());
+        let p_error = (1.0 + gamma(3)) * (m_abs * self.p_error) + gamma(3) * forth;
         let mirror = if transform.mirrors() { -1.0 } else { 1.0 };
         Self {
             p,
-            p_error: p_error + gamma(5) * Vec3::from(back),
+            p_error: p_error + gamma(5) * back,
             ng: unit_or(transform.normal_to_world(self.ng), self.ng),
             ns: unit_or(transform.normal_to_world(self.ns), self.ns),
-            tangent: m.transform_vector3(self.tangent),
+            tangent: m.transform_vector3a(self.tangent),
             handedness: self.handedness * mirror,
             ..*self
         }
@@ -81,6 +81,6 @@ impl Surface {
 
 /// `v` normalised, or `otherwise` where it has no direction. In f64, so that no square under- or overflows.
 #[inline]
-fn unit_or(v: Vec3, otherwise: Vec3) -> Vec3 {
-    v.as_dvec3().try_normalize().map_or(otherwise, |n| n.as_vec3())
+fn unit_or(v: Vec3A, otherwise: Vec3A) -> Vec3A {
+    v.as_dvec3().try_normalize().map_or(otherwise, |n| n.as_vec3a())
 }

@@ -2,7 +2,7 @@
 
 use super::{Chart, Quadric, QuadricPoint, Surface};
 use crate::math::{Ray, Transform, UNIT_ROUNDOFF};
-use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec4};
+use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
 /// Relative error bound of the few f64 operations that map a point to object space and back: γ₃₂ of f64.
 const ROUNDING: f64 = 32.0 * f64::EPSILON;
@@ -53,14 +53,14 @@ impl PlacedQuadric {
     pub fn surface_at(&self, point: &QuadricPoint, charted: bool) -> Surface {
         let chart = if charted { self.quadric.chart(point) } else { Chart::default() };
         let p = self.to_world.transform_point3(point.p);
-        let ng = self.normal_to_world(point.n).as_vec3();
+        let ng = self.normal_to_world(point.n).as_vec3a();
         let mirror = if self.transform.mirrors() != self.reversed { -1.0 } else { 1.0 };
         Surface {
-            p: p.as_vec3(),
+            p: p.as_vec3a(),
             p_error: self.p_error(point.p, p),
             ng,
             ns: ng,
-            tangent: (self.to_world.matrix3 * chart.dpdu).as_vec3(),
+            tangent: (self.to_world.matrix3 * chart.dpdu).as_vec3a(),
             handedness: mirror,
             uv: [chart.uv, Vec2::ZERO],
             color: Vec4::ONE,
@@ -69,13 +69,13 @@ impl PlacedQuadric {
 
     /// Bound on the distance of the f32 point from the surface that [`intersect`](Self::intersect) sees: one rounding
     /// to f32, and the f64 rounding of the map and of the way back.
-    fn p_error(&self, object: DVec3, world: DVec3) -> Vec3 {
+    fn p_error(&self, object: DVec3, world: DVec3) -> Vec3A {
         let (m, inverse) = (self.to_world.matrix3.abs(), self.to_object.matrix3.abs());
         let forth = m * object.abs() + self.to_world.translation.abs();
         let back = m * (inverse * forth + self.to_object.translation.abs());
         let error = world.abs() * f64::from(UNIT_ROUNDOFF) + (forth + back) * ROUNDING;
         // Rounding the bound itself must not shrink it, and even an exact point must move off the surface.
-        error.as_vec3() * (1.0 + f32::EPSILON) + f32::MIN_POSITIVE
+        error.as_vec3a() * (1.0 + f32::EPSILON) + f32::MIN_POSITIVE
     }
 
     /// Unit normal in the world, towards the front. A normal is a covector: it stays outward under a mirroring map.

@@ -126,14 +126,14 @@ impl Quadric {
     /// The surface where an object-space ray meets it at `t`.
     pub fn surface(&self, o: Vec3, d: Vec3, t: f32) -> Surface {
         let point = self.refine(o.as_dvec3(), d.as_dvec3(), f64::from(t));
-        let (p, n, chart) = (point.p.as_vec3(), point.n.as_vec3(), self.chart(&point));
+        let (p, n, chart) = (point.p.as_vec3a(), point.n.as_vec3a(), self.chart(&point));
         Surface {
             p,
             // One rounding to f32; what f64 lost before it is covered by the doubling.
             p_error: p.abs() * (2.0 * UNIT_ROUNDOFF),
             ng: n,
             ns: n,
-            tangent: chart.dpdu.as_vec3(),
+            tangent: chart.dpdu.as_vec3a(),
             handedness: 1.0,
             uv: [chart.uv, Vec2::ZERO],
             color: Vec4::ONE,

@@ -2,7 +2,7 @@
 
 use super::Surface;
 use crate::math::{Ray, gamma};
-use glam::{Vec2, Vec3, Vec4};
+use glam::{Vec2, Vec3, Vec3A, Vec4};
 
 /// What the vertices of a triangle carry besides their positions.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,21 +58,21 @@ pub fn triangle_area([a, b, c]: [Vec3; 3]) -> f32 {
 /// because the weight of the first vertex is the difference 1 − u − v.
 pub fn triangle_surface(p: [Vec3; 3], u: f32, v: f32, attributes: &TriangleAttributes, flip: bool) -> Surface {
     // A degenerate triangle, which no ray should meet, gets any normal.
-    let front = triangle_normal(p).unwrap_or(Vec3::Z);
-    let flat = flat_surface(p, u, v, if flip { -front } else { front });
+    let front = Vec3A::from(triangle_normal(p).unwrap_or(Vec3::Z));
+    let flat = flat_surface(p.map(Vec3A::from), u, v, if flip { -front } else { front });
     with_attributes(flat, p, u, v, attributes, flip)
 }
 
 /// [`triangle_surface`] of a triangle that carries nothing but its positions, with the normal `ng` of its front.
 #[inline]
-pub fn flat_surface(p: [Vec3; 3], u: f32, v: f32, ng: Vec3) -> Surface {
+pub fn flat_surface(p: [Vec3A; 3], u: f32, v: f32, ng: Vec3A) -> Surface {
     let [a, b, c] = [p[0] * (1.0 - u - v), p[1] * u, p[2] * v];
     Surface {
         p: a + b + c,
         p_error: (a.abs() + b.abs() + c.abs()) * gamma(7) + p[0].abs() * gamma(2),
         ng,
         ns: ng,
-        tangent: Vec3::ZERO,
+        tangent: Vec3A::ZERO,
         handedness: 1.0,
         uv: [Vec2::ZERO; 2],
         color: Vec4::ONE,
@@ -91,7 +91,7 @@ pub fn with_attributes(
     let ng = flat.ng;
 
     // Shading normal, in the hemisphere of ng.
-    let ns = attributes.normals.and_then(|n| interpolate(n, u, v).try_normalize()).unwrap_or(ng);
+    let ns = attributes.normals.and_then(|n| interpolate(n.map(Vec3A::from), u, v).try_normalize()).unwrap_or(ng);
     let ns = if ns.dot(ng) < 0.0 { -ns } else { ns };
 
     // Tangent as given, or ∂p/∂u of the first set of texture coordinates. A flipped normal turns the cross product
@@ -99,10 +99,10 @@ pub fn with_attributes(
     let (tangent, handedness) = match (attributes.tangents, attributes.uv[0]) {
         (Some(tangents), _) => {
             let tangent = interpolate(tangents, u, v);
-            (tangent.truncate(), if (tangent.w < 0.0) != flip { -1.0 } else { 1.0 })
+            (Vec3A::from_vec4(tangent), if (tangent.w < 0.0) != flip { -1.0 } else { 1.0 })
         }
         (None, Some(uv)) => tangent_from_uv(p, uv, flip),
-        (None, None) => (Vec3::ZERO, 1.0),
+        (None, None) => (Vec3A::ZERO, 1.0),
     };
 
     Surface {
@@ -117,16 +117,16 @@ pub fn with_attributes(
 
 /// ∂p/∂u, the solution of eᵢ = Δuᵢ ∂p/∂u + Δvᵢ ∂p/∂v, and the handedness with which ns × ∂p/∂u points against ∂p/∂v
 /// (v grows downwards, the bitangent upwards, as glTF has it); (0, 1) where the coordinates are degenerate.
-fn tangent_from_uv(p: [Vec3; 3], uv: [Vec2; 3], flip: bool) -> (Vec3, f32) {
+fn tangent_from_uv(p: [Vec3; 3], uv: [Vec2; 3], flip: bool) -> (Vec3A, f32) {
     let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
     let (d1, d2) = (uv[1] - uv[0], uv[2] - uv[0]);
     let det = d1.perp_dot(d2);
     if det == 0.0 || !det.is_finite() {
-        return (Vec3::ZERO, 1.0);
+        return (Vec3A::ZERO, 1.0);
     }
     // (∂p/∂u × ∂p/∂v)·n has the sign of det where n is the counter-clockwise normal.
     let handedness = if (det > 0.0) != flip { -1.0 } else { 1.0 };
-    ((e1 * d2.y - e2 * d1.y) * det.signum(), handedness)
+    (((e1 * d2.y - e2 * d1.y) * det.signum()).into(), handedness)
 }
 
 /// Where `ray` meets triangle `p`, from either side (Möller & Trumbore 1997, in f64). For one triangle at a time;

@@ -56,7 +56,7 @@ impl Chart {
         let turn = 0.5 * (2.0 * second(|p| p.x * p.y)).atan2(second(|p| p.x * p.x - p.y * p.y)) as f32;
         let (sin, cos) = turn.sin_cos();
         let (s, t) = (chart.frame.s, chart.frame.t);
-        chart.frame = Frame { s: s * cos + t * sin, t: t * cos - s * sin, n: centre };
+        chart.frame = Frame { s: s * cos + t * sin, t: t * cos - s * sin, n: centre.into() };
         let places = || pilot.iter().map(|&w| chart.map(w));
         let low = places().fold(DVec2::INFINITY, DVec2::min);
         let high = places().fold(DVec2::NEG_INFINITY, DVec2::max);
@@ -128,7 +128,7 @@ impl Chart {
     fn unmap(&self, p: DVec2) -> Option<Vec3> {
         let r2 = p.length_squared();
         let local = (p * (1.0 - 0.25 * r2).max(0.0).sqrt()).extend(1.0 - 0.5 * r2);
-        (r2 < 4.0).then(|| self.frame.to_world(local.as_vec3()).normalize())
+        (r2 < 4.0).then(|| self.frame.to_world(local.as_vec3()).normalize().into())
     }
 }
 

@@ -1,8 +1,8 @@
 //! Square → disk.
 
 use super::to_unit;
-use crate::math::{select, sin_cos_of_eighth};
-use glam::Vec2;
+use crate::math::sin_cos_of_eighth;
+use glam::{Vec2, Vec4, Vec4Swizzles};
 use std::f32::consts::{FRAC_1_PI, FRAC_PI_4};
 
 /// Density of [`uniform_disk`] over area.
@@ -20,12 +20,16 @@ pub fn uniform_disk(u: [f32; 2]) -> Vec2 {
 #[inline]
 pub(super) fn disk_polar(u: [f32; 2]) -> (f32, Vec2) {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);
-    // In the wedge about ±x the radius is a and the angle π/4 b/a; the wedge about ±y is its mirror image.
-    let about_x = a.abs() > b.abs();
-    let (r, other) = (select(about_x, a, b), select(about_x, b, a));
+    // In the wedge about ±x the radius is a and the angle π/4 b/a; the wedge about ±y is its mirror image. Choices are made
+    // by masks, lane by lane: which wedge it is, no branch could guess.
+    let point = Vec4::new(a, b, b, a);
+    let size = point.abs();
+    let about_x = size.xxww().cmpgt(size.yyzz());
+    let [r, other, ..] = Vec4::select(about_x, point, point.zwxy()).to_array();
     // In the middle both are 0.
-    let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (other / select(r == 0.0, 1.0, r)));
-    (r, Vec2::new(select(about_x, cos, sin), select(about_x, sin, cos)))
+    let (sin, cos) = sin_cos_of_eighth(FRAC_PI_4 * (other / r.abs().max(f32::MIN_POSITIVE).copysign(r)));
+    let direction = Vec4::new(cos, sin, sin, cos);
+    (r, Vec4::select(about_x, direction, direction.zwxy()).xy())
 }
 
 /// Inverse of [`uniform_disk`].

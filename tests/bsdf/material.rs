@@ -4,7 +4,7 @@ use crate::{at_cosine, sampled_albedo};
 use radianza::bsdf::{Bsdf, Transport};
 use radianza::desc::{self, Alpha, ColorParam, Emission, Fresnel, Model, NormalMap, Roughness, ScalarParam, Sides};
 use radianza::desc::{Image, Layers, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};
-use radianza::glam::{Affine2, Vec2, Vec3, Vec4};
+use radianza::glam::{Affine2, Vec2, Vec3, Vec3A, Vec4};
 use radianza::material::Material;
 use radianza::shape::Surface;
 use radianza::stats::Family;
@@ -14,11 +14,11 @@ const WHITE: ColorParam = ColorParam::constant([1.0; 3]);
 
 pub(crate) fn surface() -> Surface {
     Surface {
-        p: Vec3::ZERO,
-        p_error: Vec3::ZERO,
-        ng: Vec3::Z,
-        ns: Vec3::Z,
-        tangent: Vec3::X,
+        p: Vec3A::ZERO,
+        p_error: Vec3A::ZERO,
+        ng: Vec3A::Z,
+        ns: Vec3A::Z,
+        tangent: Vec3A::X,
         handedness: 1.0,
         uv: [Vec2::new(0.25, 0.5), Vec2::new(0.75, 0.5)],
         color: Vec4::new(0.5, 1.0, 1.0, 0.5),
@@ -181,12 +181,12 @@ fn normal_maps_stay_above_the_surface() {
     assert!(Material::compile(&m).shading_normal(&surface(), &textures).is_none());
     m.normal_map = Some(NormalMap { texture: texture(1), scale: 0.5 });
     // (2 rgb − 1) × (0.5, 0.5, 1) of (0.2, 1, 0.6).
-    let expected = Vec3::new(-0.3, 0.5, 0.2).normalize();
+    let expected = Vec3A::new(-0.3, 0.5, 0.2).normalize();
     let n = Material::compile(&m).shading_normal(&surface(), &textures).expect("there is a map");
     assert!((n - expected).length() < 1e-6, "{n}");
     let mirrored = Surface { handedness: -1.0, ..surface() };
     let n = Material::compile(&m).shading_normal(&mirrored, &textures).expect("there is a map");
-    assert!((n - expected * Vec3::new(1.0, -1.0, 1.0)).length() < 1e-6, "{n}");
+    assert!((n - expected * Vec3A::new(1.0, -1.0, 1.0)).length() < 1e-6, "{n}");
     // The left texel points along (1, −1, −1).
     m.normal_map = Some(NormalMap { texture: texture(0), scale: 1.0 });
     let n = Material::compile(&m).shading_normal(&surface(), &textures).expect("there is a map");

@@ -35,8 +35,9 @@ macro_rules! kernels {
             let mut near = Lanes::splat(0.0);
             let mut far = Lanes::splat(t_max);
             for axis in 0..3 {
-                near = slab(axis, ray.near[axis], ray.minus_d_inv[axis]).max(near);
-                far = slab(axis, ray.near[axis] ^ 1, ray.minus_d_inv_far[axis]).min(far);
+                let plane = ray.near[axis] as usize;
+                near = slab(axis, plane, ray.minus_d_inv[axis]).max(near);
+                far = slab(axis, plane ^ 1, ray.minus_d_inv_far[axis]).min(far);
             }
             (near.le(far), near)
         }
@@ -67,8 +68,7 @@ macro_rules! kernels {
         ) -> (u32, [Lanes; 4]) {
             let leaf = &leaves[index as usize];
             let others = if index == ray.own_leaf { !ray.own_lane } else { !0 };
-            let [kx, ky, kz] = ray.axes;
-            let (kx, ky, kz) = (kx.min(2), ky.min(2), kz.min(2));
+            let [kx, ky, kz] = [0, 1, 2].map(|i| ray.axes[i].min(2) as usize);
             let [sx, sy, sz] = ray.shear;
             let (sx, sy, sz) = (Lanes::splat(sx), Lanes::splat(sy), Lanes::splat(sz));
             let (ox, oy, oz) = (Lanes::splat(ray.o[kx]), Lanes::splat(ray.o[ky]), Lanes::splat(ray.o[kz]));

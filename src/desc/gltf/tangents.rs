@@ -20,7 +20,7 @@ pub(super) fn repair(tangents: &mut [Vec4], normals: &[Vec3]) -> usize {
         let unit = t.truncate().as_dvec3().try_normalize().map(|t| t.as_vec3());
         let usable = unit.filter(|t| n.cross(*t).length_squared() > 1e-8);
         lost += usize::from(usable.is_none());
-        *t = usable.unwrap_or_else(|| Frame::from_z(*n).s).extend(sign);
+        *t = usable.unwrap_or_else(|| Frame::from_z(*n).s.into()).extend(sign);
     }
     lost
 }

@@ -1,6 +1,6 @@
 //! Where lights stand, where they shine to, and how strongly.
 
-use glam::{DQuat, DVec3, Vec3};
+use glam::{DQuat, DVec3, Vec3, Vec3A};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// What encloses one light or many: nothing of their intensity leaves the box's points in other directions than those
@@ -25,12 +25,14 @@ pub struct LightBounds {
 
 impl LightBounds {
     /// All around from a point or a round body in the box.
-    pub fn round(min: Vec3, max: Vec3, intensity: f64) -> Self {
+    pub fn round(min: impl Into<Vec3>, max: impl Into<Vec3>, intensity: f64) -> Self {
+        let (min, max) = (min.into(), max.into());
         Self { min, max, axis: DVec3::Z, spread: PI, fade: FRAC_PI_2, intensity, both: false }
     }
 
     /// A plane surface in the box: cosine about its normal, and about the opposite where it emits to both sides.
-    pub fn flat(min: Vec3, max: Vec3, normal: Vec3, intensity: f64, both: bool) -> Self {
+    pub fn flat(min: impl Into<Vec3>, max: impl Into<Vec3>, normal: Vec3A, intensity: f64, both: bool) -> Self {
+        let (min, max) = (min.into(), max.into());
         Self { min, max, axis: normal.as_dvec3(), spread: 0.0, fade: FRAC_PI_2, intensity, both }
     }
 

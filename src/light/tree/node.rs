@@ -3,17 +3,16 @@
 use super::LightBounds;
 use crate::light::{Facing, Receiver};
 use crate::math::{safe_sqrt, sqr};
-use glam::Vec3;
+use glam::{Vec3A, Vec4};
 
 /// Bounds as the traversal reads them: the sphere about the box, the cone, the intensity, 48 bytes.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node {
-    center: Vec3,
-    /// Squared radius of the sphere that holds the box.
-    radius2: f32,
-    axis: Vec3,
+    /// Middle of the sphere that holds the box, and its squared radius.
+    sphere: Vec4,
+    /// Axis of the cone, and the cosine beyond its spread where the emission ends.
+    cone: Vec4,
     spread: Angle,
-    cos_fade: f32,
     /// Relative to all lights.
     intensity: f32,
     both: bool,
@@ -29,11 +28,9 @@ impl Node {
         // What rounding takes from the sphere, the centre's included, is given back.
         let rounding = 4.0 * f32::EPSILON * (radius + center.length());
         Self {
-            center,
-            radius2: if radius > 0.0 { sqr(radius + rounding) } else { 0.0 },
-            axis: bounds.axis.as_vec3(),
+            sphere: center.extend(if radius > 0.0 { sqr(radius + rounding) } else { 0.0 }),
+            cone: bounds.axis.as_vec3().extend(bounds.fade.cos() as f32),
             spread: Angle { sin: bounds.spread.sin() as f32, cos: bounds.spread.cos() as f32 },
-            cos_fade: bounds.fade.cos() as f32,
             intensity: (bounds.intensity * scale) as f32,
             both: bounds.both,
             next,
@@ -54,21 +51,22 @@ impl Node {
         const MOST: f32 = 1e30;
         /// Least cosine at the light, for the penumbra of a spot may be wider than a right angle.
         const FAINT: f32 = 1e-3;
-        let to = self.center - receiver.p;
+        let radius2 = self.sphere.w;
+        let to = Vec3A::from_vec4(self.sphere) - receiver.p;
         let d2 = to.length_squared();
         // The mean of 1/d² over a ball is 3/r² from its middle and 1/d² from afar.
-        let near = self.intensity / (d2 + self.radius2 * (1.0 / 3.0)).max(f32::MIN_POSITIVE);
-        if d2 <= self.radius2 {
+        let near = self.intensity / (d2 + radius2 * (1.0 / 3.0)).max(f32::MIN_POSITIVE);
+        if d2 <= radius2 {
             return near.min(MOST);
         }
         let wi = to / d2.sqrt();
-        let sin2_b = self.radius2 / d2;
+        let sin2_b = radius2 / d2;
         let b = Angle { sin: sin2_b.sqrt(), cos: safe_sqrt(1.0 - sin2_b) };
 
-        let cos_w = -wi.dot(self.axis);
+        let cos_w = -wi.dot(Vec3A::from_vec4(self.cone));
         let middle = Angle::of_cos(if self.both { cos_w.abs() } else { cos_w }).less(self.spread);
         let bound = middle.less(b).cos;
-        if bound <= self.cos_fade {
+        if bound <= self.cone.w {
             return 0.0;
         }
         let emitted = 0.5 * (bound + middle.cos.max(0.0)).max(FAINT);

@@ -10,7 +10,7 @@ use crate::desc::{self, Fov, Lens, Projection};
 use crate::stats::chi2_test;
 use crate::verify::measure::replicates;
 use crate::verify::{Exhibit, Findings, HeatMap, Task, Topic, Trial};
-use glam::{DVec3, Mat4, Vec2, Vec3, vec2, vec3};
+use glam::{DVec3, Mat4, Vec2, Vec3, Vec3A, vec2, vec3};
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64Mcg;
 use std::f64::consts::{PI, TAU};
@@ -176,7 +176,7 @@ fn sphere(camera: &Camera, trial: &Trial, found: &mut Findings) {
     let mut observed = vec![0.0; (SIZE[0] * SIZE[1]) as usize];
     let mut lost = 0;
     for _ in 0..n {
-        let film = camera.project(eye + crate::warp::uniform_sphere([rng.random(), rng.random()]));
+        let film = camera.project(eye + Vec3A::from(crate::warp::uniform_sphere([rng.random(), rng.random()])));
         match film.map(|film| film.max(Vec2::ZERO).as_uvec2()) {
             Some(p) => observed[(p.y.min(SIZE[1] - 1) * SIZE[0] + p.x.min(SIZE[0] - 1)) as usize] += 1.0,
             None => lost += 1,

@@ -16,7 +16,7 @@ use crate::scene::{Departure, Scene};
 use crate::shape::{flat_surface, triangle_normal};
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::{uniform_hemisphere, uniform_triangle};
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 
 const TOPIC: Topic = Topic {
     id: "leaks",
@@ -232,9 +232,9 @@ impl Surface {
             let mut pick = |n: usize| ((u.next_1d() * n as f32) as usize).min(n - 1);
             let (index, aim) = (pick(n), pick(n));
             let triangle = self.triangles[index];
-            let Some(ng) = triangle_normal(triangle) else { continue };
+            let Some(ng) = triangle_normal(triangle).map(Vec3A::from) else { continue };
             let [_, b, c] = uniform_triangle(u.next_2d());
-            let from = flat_surface(triangle, b, c, ng);
+            let from = flat_surface(triangle.map(Vec3A::from), b, c, ng);
             let inner = ng * inwards;
 
             // Half of the rays aim at an edge or a vertex of some triangle, where that lies inwards.
@@ -244,7 +244,7 @@ impl Surface {
                 let [a, b, c] = self.triangles[aim];
                 let on_edge = if share < 0.5 { a } else { a.lerp(b, 0.5) };
                 let on_edge = if share < 0.25 { c } else { on_edge };
-                (on_edge - from.p).normalize_or_zero()
+                (Vec3A::from(on_edge) - from.p).normalize_or_zero()
             };
             let aimed = choice < 0.5 && target.dot(inner) > 1e-3;
             let d = if aimed { target } else { Frame::from_z(inner).to_world(local).normalize_or(inner) };
@@ -255,7 +255,7 @@ impl Surface {
             }
             // Inside of thin walls and of overlapping parts the origin may have been outside.
             misses += 1;
-            if winding(&self.triangles, o) * f64::from(-inwards) > 0.5 {
+            if winding(&self.triangles, o.into()) * f64::from(-inwards) > 0.5 {
                 verdict.escaped += 1;
                 let (o, d) = (o.to_array(), d.to_array());
                 verdict.first.get_or_insert_with(|| format!("at {o:?} along {d:?}, from triangle {index}"));

@@ -8,7 +8,7 @@ use crate::scene::{Departure, Shading, Vertex};
 use crate::shape::{TriangleAttributes, triangle_surface};
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::{uniform_sphere, uniform_triangle};
-use glam::Vec3;
+use glam::Vec3A;
 
 const TOPIC: Topic = Topic {
     id: "normals",
@@ -137,7 +137,7 @@ impl Frames {
                 [b, c]
             };
             let surface = triangle_surface(p.map(|p| m.transform_point3(p)), b, c, &attributes, flip);
-            let wo = uniform_sphere(u.next_2d());
+            let wo = Vec3A::from(uniform_sphere(u.next_2d()));
             let vertex = Vertex {
                 surface,
                 wo,
@@ -163,8 +163,8 @@ impl Frames {
 
 /// Largest deviation of dot products of three vectors from those of an orthonormal frame; 0 where they are not finite,
 /// which is counted apart.
-fn skew([s, t, n]: [Vec3; 3]) -> f64 {
-    let dot = |a: Vec3, b: Vec3| a.as_dvec3().dot(b.as_dvec3());
+fn skew([s, t, n]: [Vec3A; 3]) -> f64 {
+    let dot = |a: Vec3A, b: Vec3A| a.as_dvec3().dot(b.as_dvec3());
     let off = [dot(s, t), dot(t, n), dot(n, s), dot(s, s) - 1.0, dot(t, t) - 1.0, dot(n, n) - 1.0];
     off.into_iter().fold(0.0, |worst, x| if x.is_finite() { worst.max(x.abs()) } else { worst })
 }

@@ -8,7 +8,7 @@ use crate::material::param::{self, Point};
 use crate::shape::Surface;
 use crate::texture::Textures;
 use crate::verify::scattering::{Draw, Rgb, Scattering};
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec3A};
 
 /// A material where it is looked at. Which lobe is drawn how often depends on `wo`, so that every question makes the
 /// lobes anew; [`towards`](Self::towards) keeps them for one `wo`.
@@ -23,11 +23,11 @@ impl Worn<'_> {
     /// Its lobes for light along `wo`.
     pub(super) fn towards(&self, wo: DVec3) -> Bsdf {
         let surface = Surface {
-            p: Vec3::ZERO,
-            p_error: Vec3::ZERO,
-            ng: Vec3::Z,
-            ns: Vec3::Z,
-            tangent: Vec3::X,
+            p: Vec3A::ZERO,
+            p_error: Vec3A::ZERO,
+            ng: Vec3A::Z,
+            ns: Vec3A::Z,
+            tangent: Vec3A::X,
             handedness: 1.0,
             uv: self.place.uv,
             color: self.place.color,

@@ -12,7 +12,7 @@ use crate::texture::Textures;
 use crate::verify::chart::{Chart, Quadrature, fit};
 use crate::verify::measure::{replicates, to_detect};
 use crate::verify::{Exhibit, Findings, Task, Topic, Trial};
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use rand::RngExt;
 
 const D1: Topic = Topic {
@@ -28,7 +28,7 @@ pub(super) fn tasks() -> Vec<Task> {
     let mut tasks = Vec::new();
     for Specimen { name, light, points } in specimens() {
         for (place, p) in points {
-            let at = Placed { light: light.clone(), p };
+            let at = Placed { light: light.clone(), p: p.into() };
             let work = move |trial: &Trial, found: &mut Findings| {
                 at.samples_and_hits(trial, found);
                 if !at.light.is_delta() && at.is_seen() {
@@ -44,7 +44,7 @@ pub(super) fn tasks() -> Vec<Task> {
 /// A light and the point that it is drawn from.
 struct Placed {
     light: Light,
-    p: Vec3,
+    p: Vec3A,
 }
 
 impl Placed {
@@ -57,18 +57,18 @@ impl Placed {
         (0..64).any(|i| self.draw([(i % 8) as f32 / 8.0, (i / 8) as f32 / 8.0]).is_some())
     }
 
-    fn emits(&self, wi: Vec3, hit: &Surface) -> bool {
+    fn emits(&self, wi: Vec3A, hit: &Surface) -> bool {
         !self.light.le(&hit.uv, hit.color, -wi.dot(hit.ng), &Textures::default()).is_black()
     }
 
     /// Where a ray goes on behind a hit.
-    fn behind(wi: Vec3, hit: &Surface) -> Ray {
+    fn behind(wi: Vec3A, hit: &Surface) -> Ray {
         Ray::new(offset_origin(hit.p, hit.p_error, hit.ng, wi), wi)
     }
 
     /// Density over solid angle with which a sample may arrive from direction `wi`: summed over all points of the light
     /// that lie there, one behind the other, and that emit towards `p`.
-    fn density(&self, wi: Vec3) -> f64 {
+    fn density(&self, wi: Vec3A) -> f64 {
         if self.light.surrounds() {
             return f64::from(self.light.le_and_pdf_from(wi).1);
         }
@@ -88,13 +88,13 @@ impl Placed {
     /// over uniform directions it has a small variance at silhouettes, where the density of area sampling has no bound.
     fn shape_and_total(&self, trial: &Trial, found: &mut Findings) {
         let mut rng = super::rng(trial.seed);
-        let draw = |u| self.draw(u).map(|s| s.wi);
+        let draw = |u| self.draw(u).map(|s| Vec3::from(s.wi));
         // Dim texels are drawn too seldom for a pilot to find them.
         let wide = matches!(self.light, Light::Environment(_));
         let chart = if wide { Chart::sphere(BINS) } else { Chart::of(draw, BINS) };
         let how = trial.pick(Quadrature::default(), Quadrature { strata: 16, rough: 24 });
         let count = trial.work(60_000, 1_000_000);
-        let fit = fit(&chart, (rng.random(), count, how), "directions drawn", draw, |w| self.density(w));
+        let fit = fit(&chart, (rng.random(), count, how), "directions drawn", draw, |w| self.density(w.into()));
         found.checks.chi2("χ² of the shape", fit.test);
         found.exhibits.push(Exhibit::HeatMap(fit.map));
 
@@ -103,7 +103,7 @@ impl Placed {
             _ => 0.0,
         };
         let support = |u: [f32; 2]| {
-            let inside = chart.direction(u.map(f64::from)).is_some_and(|w| self.density(w) > 0.0);
+            let inside = chart.direction(u.map(f64::from)).is_some_and(|w| self.density(w.into()) > 0.0);
             chart.area() * f64::from(u8::from(inside))
         };
         let most = trial.work(1 << 12, 1 << 16) << if wide { 5 } else { 0 };

@@ -9,7 +9,7 @@ use crate::verify::chart::Chart;
 use crate::verify::measure::{replicates, to_detect};
 use crate::verify::{Findings, Trial};
 use crate::warp::cosine_hemisphere;
-use glam::Vec3;
+use glam::{Vec3, Vec3A};
 use std::f64::consts::PI;
 
 /// Relative bias that each estimate is given points for: below half a percent, for the pilot knows its own error only
@@ -34,20 +34,20 @@ pub(super) struct Lit<'a> {
 impl Lit<'_> {
     /// E = ∫ L cosθ dω estimated by L cosθ/pdf of directions drawn towards the light, one lane.
     fn sampled(&self, u: [f32; 2]) -> f64 {
-        let Some(s) = self.light.sample(self.p, u, self.textures) else { return 0.0 };
+        let Some(s) = self.light.sample(self.p.into(), u, self.textures) else { return 0.0 };
         let (Pdf::SolidAngle(pdf) | Pdf::Discrete(pdf)) = s.pdf;
-        f64::from(s.le.0.x) * f64::from(self.n.dot(s.wi).max(0.0)) / f64::from(pdf)
+        f64::from(s.le.0.x) * f64::from(s.wi.dot(self.n.into()).max(0.0)) / f64::from(pdf)
     }
 
     /// Radiance from `wi`, one lane: front and back of a surface count as a viewer in vacuum sees them, the nearer
     /// first.
-    fn seen(&self, wi: Vec3) -> f64 {
+    fn seen(&self, wi: Vec3A) -> f64 {
         self.layers(wi, 1)
     }
 
     /// Radiance that up to `count` layers of the light emit along `wi`, one behind the other and none hiding the next:
     /// what samples of the light stand for before shadow rays.
-    fn layers(&self, wi: Vec3, count: u32) -> f64 {
+    fn layers(&self, wi: Vec3A, count: u32) -> f64 {
         if self.light.surrounds() {
             return f64::from(self.light.le_from(wi).0.x);
         }
@@ -82,11 +82,11 @@ impl Lit<'_> {
 
     /// The irradiance by directions uniform over a chart that holds the light.
     pub(super) fn by_chart(&self, trial: &Trial, exact: f64) -> Moments {
-        let chart = Chart::of(|u| self.light.sample(self.p, u, self.textures).map(|s| s.wi), 1);
+        let chart = Chart::of(|u| self.light.sample(self.p.into(), u, self.textures).map(|s| s.wi.into()), 1);
         let trial = Trial { seed: trial.seed.wrapping_add(2), ..*trial };
         to_detect(&trial, exact, AIM, self.most(&trial), |u: [f32; 2]| {
             // Quadrics and triangles meet a ray twice at most.
-            let value = |wi: Vec3| self.layers(wi, 2) * f64::from(wi.dot(self.n).max(0.0)) * chart.area();
+            let value = |wi: Vec3| self.layers(wi.into(), 2) * f64::from(wi.dot(self.n).max(0.0)) * chart.area();
             chart.direction(u.map(f64::from)).map_or(0.0, value)
         })
     }

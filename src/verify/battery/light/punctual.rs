@@ -63,8 +63,8 @@ fn poses(trial: &Trial, found: &mut Findings) {
             ),
         ];
         for (worst, (light, facing, exact)) in worst.iter_mut().zip(lights) {
-            let sample = Light::from_desc(&light).sample(p, [0.5; 2], &Textures::default());
-            let e = sample.map_or(0.0, |s| f64::from(s.le.0.x) * f64::from(n.dot(s.wi).max(0.0)));
+            let sample = Light::from_desc(&light).sample(p.into(), [0.5; 2], &Textures::default());
+            let e = sample.map_or(0.0, |s| f64::from(s.le.0.x) * f64::from(n.dot(s.wi.into()).max(0.0)));
             *worst = worst.max((e - exact).abs() / facing);
         }
     }
@@ -93,7 +93,7 @@ fn flux_of_profiles(trial: &Trial, found: &mut Findings) {
         let light = Light::from_desc(&light);
         let power = f64::from(light.power(2.0, &|_| Vec4::ONE).0.x);
         let flux = to_detect(trial, power, 3e-3, 1 << 15, |u| {
-            let sample = light.sample(uniform_sphere(u), [0.5; 2], &Textures::default());
+            let sample = light.sample(uniform_sphere(u).into(), [0.5; 2], &Textures::default());
             4.0 * PI * sample.map_or(0.0, |s| f64::from(s.le.0.x))
         });
         found.checks.replicated(format!("{kind:?}, {horizontal:?}"), power, &flux, 1e-3);
@@ -115,7 +115,7 @@ fn flux_of_spots(trial: &Trial, found: &mut Findings) {
         let spot = Light::from_desc(&written);
         let power = f64::from(spot.power(2.0, &|_| Vec4::ONE).0.x);
         let flux = to_detect(trial, power, 3e-3, 1 << 15, |u| {
-            let sample = spot.sample(uniform_sphere(u), [0.5; 2], &Textures::default());
+            let sample = spot.sample(uniform_sphere(u).into(), [0.5; 2], &Textures::default());
             4.0 * PI * sample.map_or(0.0, |s| f64::from(s.le.0.x))
         });
         found.checks.replicated(format!("{inner} to {outer}"), power, &flux, 1e-6);

@@ -10,7 +10,7 @@ use crate::light::{Light, specimens};
 use crate::shape::Quadric;
 use crate::texture::Textures;
 use crate::verify::{Task, Topic};
-use glam::Vec3;
+use glam::Vec3A;
 
 /// The row that a light belongs to.
 fn topic(light: &Light) -> Topic {
@@ -36,14 +36,15 @@ pub(super) fn tasks() -> Vec<Task> {
                 let textures = Textures::default();
                 // The receiver is turned half away from where the light is.
                 let samples = (0..64u32).map(|i| [(i % 8) as f32, (i / 8) as f32].map(|x| (x + 0.5) / 8.0));
-                let towards: Vec3 = samples.filter_map(|u| light.sample(p, u, &textures)).map(|s| s.wi).sum();
+                let p = Vec3A::from(p);
+                let towards: Vec3A = samples.filter_map(|u| light.sample(p, u, &textures)).map(|s| s.wi).sum();
                 let Some(towards) = towards.try_normalize() else {
                     // Nothing is emitted to where this point is.
                     let seen = light.sample(p, [0.3, 0.6], &textures).is_some();
                     return found.checks.holds("nothing arrives", !seen);
                 };
                 let n = (towards + 0.5 * towards.any_orthonormal_vector()).normalize();
-                Lit { light: &light, p, n, textures: &textures }.agree(trial, found, "E");
+                Lit { light: &light, p: p.into(), n: n.into(), textures: &textures }.agree(trial, found, "E");
             }));
         }
     }

@@ -11,7 +11,7 @@ use crate::stats::chi2_test;
 use crate::texture::Textures;
 use crate::verify::measure::to_detect;
 use crate::verify::{Findings, Task, Topic, Trial};
-use glam::{Mat3, Mat4, Quat, Vec3};
+use glam::{Mat3, Mat4, Quat, Vec3, Vec3A};
 use rand::RngExt;
 use rand_pcg::Pcg64Mcg;
 
@@ -71,10 +71,10 @@ fn receiver(rng: &mut Pcg64Mcg) -> Receiver {
     let p = Vec3::new(rng.random(), rng.random(), rng.random()) * Vec3::new(8.0, 4.0, 8.0) - Vec3::new(2.0, 1.0, 2.0);
     let facing = match rng.random::<u32>() % 3 {
         0 => Facing::All,
-        1 => Facing::Half(random_direction(rng)),
-        _ => Facing::Both(random_direction(rng)),
+        1 => Facing::Half(random_direction(rng).into()),
+        _ => Facing::Both(random_direction(rng).into()),
     };
-    Receiver { p, facing }
+    Receiver { p: p.into(), facing }
 }
 
 /// What comes, light by light and nothing at all, against what is stated; the probability given with a choice is that
@@ -138,9 +138,9 @@ fn nothing_is_lost(trial: &Trial, found: &mut Findings) {
 
 /// The same irradiance by both choices.
 fn irradiance(trial: &Trial, found: &mut Findings) {
-    let (tree, n) = (outdoors(false), Vec3::new(0.6, 0.64, 0.48));
+    let (tree, n) = (outdoors(false), Vec3A::new(0.6, 0.64, 0.48));
     let power = tree.clone().by_power();
-    for p in [Vec3::new(2.0, 1.0, 2.0), Vec3::new(-0.5, 0.2, 3.0)] {
+    for p in [Vec3A::new(2.0, 1.0, 2.0), Vec3A::new(-0.5, 0.2, 3.0)] {
         let by = |lights: &Lights, seed: u64, most: u64| {
             to_detect(&Trial { seed, ..*trial }, 1.0, 3e-3, most, |[a, b, c]: [f32; 3]| {
                 let receiver = Receiver { p, facing: Facing::Half(n) };
