@@ -2,9 +2,8 @@
 
 use super::Aabb;
 use super::build::{Quality, build};
-use super::kernel::{self, Entry, Isa, PreparedRay, Stack};
+use super::kernel::{self, Entry, Isa, Slabs, Stack};
 use super::node::{LEAF, Node};
-use super::triangles::Slot;
 use crate::math::Ray;
 
 /// Boxes whose contents are asked by a closure.
@@ -30,23 +29,12 @@ impl BoxBvh {
     /// Asks `hit(id, ray)` of the contents of every box that the ray may meet, near ones first. `hit` returns the
     /// new end of the ray where the content was met before `ray.t_max`; boxes beyond it are not asked. Stops early
     /// where `hit` returns an end of 0 or less. True where anything was met.
-    #[inline]
-    pub fn traverse(&self, ray: &Ray, hit: impl FnMut(u32, &Ray) -> Option<f32>) -> bool {
-        self.traverse_prepared(ray, &PreparedRay::new(ray, Slot::NONE), hit)
-    }
-
-    /// The same of a ray that is `prepared` already, but for its end.
     #[inline(always)]
-    pub fn traverse_prepared(
-        &self,
-        ray: &Ray,
-        prepared: &PreparedRay,
-        mut hit: impl FnMut(u32, &Ray) -> Option<f32>,
-    ) -> bool {
+    pub fn traverse(&self, ray: &Ray, mut hit: impl FnMut(u32, &Ray) -> Option<f32>) -> bool {
         if self.nodes.is_empty() {
             return false;
         }
-        let mut ray = *ray;
+        let (mut ray, slabs) = (*ray, Slabs::new(ray));
         let (mut stack, mut size) = (Stack::new(), 0);
         stack.push(&mut size, Entry::new(0.0, 0));
         let mut found = false;
@@ -67,7 +55,7 @@ impl BoxBvh {
             }
             let first = size;
             let node = &self.nodes[child as usize];
-            let (mut met, near) = kernel::enter(self.isa, node, prepared, ray.t_max);
+            let (mut met, near) = kernel::enter(self.isa, node, &slabs, ray.t_max);
             while met != 0 {
                 let lane = met.trailing_zeros() as usize & 7;
                 met &= met - 1;

@@ -13,7 +13,7 @@ mod triangles;
 
 pub use boxes::BoxBvh;
 pub use build::Quality;
-pub use kernel::{Isa, PreparedRay};
+pub use kernel::Isa;
 pub use triangles::{Slot, TriangleBvh, TriangleHit};
 
 use glam::Vec3;

@@ -3,7 +3,7 @@
 use super::Aabb;
 use super::build::{Quality, build};
 use super::fragments::split;
-use super::kernel::{self, Isa, PreparedRay};
+use super::kernel::{self, Found, Isa};
 use super::node::{NONE, Node, TriangleLeaf, WIDTH};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
@@ -37,6 +37,16 @@ impl Slot {
     #[inline]
     pub(super) fn new(leaf: u32, lane: u32) -> Self {
         Self(leaf * WIDTH as u32 + lane)
+    }
+
+    #[inline]
+    pub(super) fn bits(self) -> u32 {
+        self.0
+    }
+
+    #[inline]
+    pub(super) fn from_bits(bits: u32) -> Self {
+        Self(bits)
     }
 
     /// Leaf and lane.
@@ -114,34 +124,21 @@ impl TriangleBvh {
     }
 
     /// The nearest hit in (0, `ray.t_max`) of a ray that leaves the triangle at `leaving`.
-    #[inline]
-    pub fn nearest(&self, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
-        self.nearest_prepared(&PreparedRay::new(ray, leaving))
-    }
-
-    /// The same of a ray that is prepared already.
     #[inline(always)]
-    pub fn nearest_prepared(&self, ray: &PreparedRay) -> Option<TriangleHit> {
-        let mut hit = TriangleHit::default();
-        let found = !self.nodes.is_empty() && kernel::nearest(self.isa, &self.nodes, &self.leaves, ray, &mut hit);
-        if !found {
+    pub fn nearest(&self, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
+        let mut found = Found::NOTHING;
+        if self.nodes.is_empty() || !kernel::nearest(self.isa, &self.nodes, &self.leaves, ray, leaving, &mut found) {
             return None;
         }
-        let (leaf, lane) = hit.slot.place();
-        hit.triangle = self.ids[leaf][lane];
-        Some(hit)
+        let ([t, u, v], slot) = found.parts();
+        let (leaf, lane) = slot.place();
+        Some(TriangleHit { t, u, v, triangle: self.ids[leaf][lane], slot })
     }
 
     /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
-    #[inline]
-    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
-        self.occluded_prepared(&PreparedRay::new(ray, leaving))
-    }
-
-    /// The same of a ray that is prepared already.
     #[inline(always)]
-    pub fn occluded_prepared(&self, ray: &PreparedRay) -> bool {
-        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray)
+    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
+        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray, leaving)
     }
 
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.

@@ -69,7 +69,7 @@ pub trait Observer {
 impl Observer for () {}
 
 /// Keeps the radiance of every transport class.
-#[derive(Default)]
+#[derive(Clone, Copy, Default)]
 pub struct ByClass(pub [Spectrum; 7]);
 
 impl Observer for ByClass {
@@ -91,7 +91,7 @@ impl Observer for RayCount {
 }
 
 /// Two who watch together; the first hears of light, the second of rays.
-impl Observer for (&mut ByClass, &mut RayCount) {
+impl Observer for (ByClass, RayCount) {
     const CLASSES: bool = true;
     fn ray(&mut self) {
         self.1.ray();

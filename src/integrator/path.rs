@@ -24,7 +24,8 @@ const LONG: u32 = 8;
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let scene = method.scene;
     let mut sample = PixelSample::default();
-    let (mut ray, mut leaving, mut drawn) = (*ray, Departure::NOWHERE, Drawn::Camera);
+    let (mut ray, mut leaving, mut drawn) =
+        (Ray { o: ray.o, d: ray.d, t_max: ray.t_max }, Departure::NOWHERE, Drawn::Camera);
     let (mut beta, mut eta_scale) = (Spectrum::ONE, 1.0);
     let (mut inside, mut lane) = (method.inside.clone(), None);
     let mut classes = Classes::default();

@@ -106,7 +106,17 @@ impl TriangleLight {
         if !self.emitter.emits(front) {
             return None;
         }
+        if self.picture.is_some() || self.is_near(reference) {
+            return self.sample_apart(reference, u, textures);
+        }
+        let [_, v, w] = uniform_triangle(u);
+        let (sight, end) = self.sight(reference, [v, w])?;
+        self.drawn([v, w], &sight, end, sight.solid_angle_pdf(1.0 / self.area), textures)
+    }
 
+    /// The same with all choices, apart from those without: their numbers need not pass through memory.
+    #[inline(never)]
+    fn sample_apart(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         let (weights, sight, end, pdf) = match self.cells() {
             None => self.sample_plain(reference, u)?,
             Some(cells) if u[0] < BY_CELL => {
@@ -117,7 +127,12 @@ impl TriangleLight {
             Some(_) => self.sample_plain(reference, [to_unit((u[0] - BY_CELL) / (1.0 - BY_CELL)), u[1]])?,
         };
         let pdf = self.pdf_mixed(pdf, &sight, weights);
+        self.drawn(weights, &sight, end, pdf, textures)
+    }
 
+    /// Light from the point with these weights.
+    #[inline(always)]
+    fn drawn(&self, weights: [f32; 2], sight: &Sight, end: f32, pdf: f32, textures: &Textures) -> Option<LightSample> {
         let (uv, color) = self.appearance(weights);
         let le = self.emitter.le(&uv, color, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
@@ -128,8 +143,8 @@ impl TriangleLight {
         })
     }
 
-    /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density.
-    #[inline(always)]
+    /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density: by solid angle
+    /// from near, by area from afar.
     fn sample_plain(&self, reference: Vec3A, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
         if self.is_near(reference)
             && let Some(spherical) = SphericalTriangle::new(&self.p, reference)
@@ -141,7 +156,6 @@ impl TriangleLight {
         Some(([u, v], sight, end, sight.solid_angle_pdf(1.0 / self.area)))
     }
 
-    #[inline(never)]
     fn sample_spherical(
         &self,
         spherical: &SphericalTriangle,

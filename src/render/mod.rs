@@ -255,29 +255,38 @@ impl<'a> Tracer<'a> {
 
     /// The replicate that begins at sample `first`, of all pixels of an area.
     fn tile(&self, area: Area, first: u64) -> Tile {
+        if self.settings.transport {
+            let split = |sums: &mut Accumulator, (classes, _): &(ByClass, RayCount)| sums.add_transport(&classes.0);
+            self.watched_tile(area, first, |watch| watch.1.0, split)
+        } else {
+            self.watched_tile(area, first, |watch: &RayCount| watch.0, |_, _| ())
+        }
+    }
+
+    /// The same, where the observer of every path has counted `rays`, and tells more to `keep`.
+    fn watched_tile<O: Observer + Default>(
+        &self,
+        area: Area,
+        first: u64,
+        rays: impl Fn(&O) -> u64,
+        keep: impl Fn(&mut Accumulator, &O),
+    ) -> Tile {
         let mut tile = Tile { area, pixels: Vec::new(), samples: 0, rays: 0, bad: Vec::new() };
         for (x, y) in positions(area) {
             let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
-                let mut rays = RayCount(0);
-                let (mut sample, mut classes) = if self.settings.transport {
-                    let mut classes = ByClass::default();
-                    (self.sample([x, y], index, &mut (&mut classes, &mut rays)), Some(classes))
-                } else {
-                    (self.sample([x, y], index, &mut rays), None)
-                };
-                tile.rays += rays.0;
+                let mut watch = O::default();
+                let mut sample = self.sample([x, y], index, &mut watch);
+                tile.rays += rays(&watch);
                 // A sample that is no radiance is reported and counts as none.
                 let rgb = sample.radiance.to_rgb();
                 if !sample.radiance.is_finite() || rgb.iter().any(|&x| x < 0.0) {
                     tile.bad.push(BadSample { pixel: [x, y], index, rgb });
                     sample.radiance = Spectrum::ZERO;
-                    classes = classes.map(|_| ByClass::default());
+                    watch = O::default();
                 }
                 sums.add(&sample);
-                if let Some(classes) = &classes {
-                    sums.add_transport(&classes.0);
-                }
+                keep(&mut sums, &watch);
             }
             tile.samples += u64::from(self.settings.replicate);
             tile.pixels.push(sums);

@@ -1,6 +1,6 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
-use crate::bvh::{Aabb, BoxBvh, PreparedRay, Quality, Slot, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, BoxBvh, Quality, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{
@@ -160,21 +160,20 @@ impl Geometry {
     /// Nearest hit in (0, `ray.t_max`).
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
-        let prepared = PreparedRay::new(ray, leaving.from(WORLD));
-        let nearest =
-            self.world.nearest_prepared(&prepared).map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
+        let nearest = self.world.nearest(ray, leaving.from(WORLD));
+        let nearest = nearest.map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
         if self.objects.is_empty() {
             return nearest;
         }
         let rest = Ray { t_max: nearest.map_or(ray.t_max, |hit| hit.t), ..*ray };
-        self.nearest_object(&rest, &prepared, leaving).or(nearest)
+        self.nearest_object(&rest, leaving).or(nearest)
     }
 
     /// Nearest hit of instances and quadrics in (0, `ray.t_max`).
     #[inline(never)]
-    fn nearest_object(&self, ray: &Ray, prepared: &PreparedRay, leaving: Departure) -> Option<Hit> {
+    fn nearest_object(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
         let mut nearest = None;
-        self.objects.traverse_prepared(ray, prepared, |object, ray| {
+        self.objects.traverse(ray, |object, ray| {
             let hit = self.object(object, ray, leaving)?;
             nearest = Some(hit);
             Some(hit.t)
@@ -185,15 +184,14 @@ impl Geometry {
     /// Whether anything is hit in (0, `ray.t_max`).
     #[inline(always)]
     pub fn occluded(&self, ray: &Ray, leaving: Departure) -> bool {
-        let prepared = PreparedRay::new(ray, leaving.from(WORLD));
-        self.world.occluded_prepared(&prepared)
-            || (!self.objects.is_empty() && self.occluded_by_object(ray, &prepared, leaving))
+        self.world.occluded(ray, leaving.from(WORLD))
+            || (!self.objects.is_empty() && self.occluded_by_object(ray, leaving))
     }
 
     /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
     #[inline(never)]
-    fn occluded_by_object(&self, ray: &Ray, prepared: &PreparedRay, leaving: Departure) -> bool {
-        self.objects.traverse_prepared(ray, prepared, |object, ray| {
+    fn occluded_by_object(&self, ray: &Ray, leaving: Departure) -> bool {
+        self.objects.traverse(ray, |object, ray| {
             match self.instances.get(object as usize) {
                 Some(instance) => {
                     instance.occluded(&self.prototypes[instance.prototype as usize], ray, leaving.from(object))

@@ -19,11 +19,13 @@ mod stack;
 mod traverse;
 
 pub(super) use pages::with_capacity;
-pub use ray::PreparedRay;
+pub(super) use ray::Slabs;
 pub(super) use stack::{Entry, Stack};
 
 use super::node::{Node, TriangleLeaf, WIDTH};
-use super::triangles::TriangleHit;
+use super::triangles::Slot;
+use crate::math::Ray;
+use glam::Vec4;
 use std::sync::OnceLock;
 
 /// Instruction sets that a kernel exists for, the better the later.
@@ -88,50 +90,72 @@ impl Isa {
     }
 }
 
-/// Nearest hit before `ray.t_max`; `hit` is written where there is one.
+/// A hit as kernels report it: the ray parameter, the barycentric coordinates of v1 and v2, the bits of the slot. One
+/// register, written at once: what is written in parts and read as a whole has to wait.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Found(Vec4);
+
+impl Found {
+    pub(super) const NOTHING: Self = Self(Vec4::ZERO);
+
+    #[inline]
+    fn new(t: f32, u: f32, v: f32, slot: Slot) -> Self {
+        Self(Vec4::new(t, u, v, f32::from_bits(slot.bits())))
+    }
+
+    /// t, u, v, and where.
+    #[inline]
+    pub(super) fn parts(self) -> ([f32; 3], Slot) {
+        let [t, u, v, slot] = self.0.to_array();
+        ([t, u, v], Slot::from_bits(slot.to_bits()))
+    }
+}
+
+/// Nearest hit before the ray's end; `hit` is written where there is one.
 #[inline]
 pub(super) fn nearest(
     isa: Isa,
     nodes: &[Node],
     leaves: &[TriangleLeaf],
-    ray: &PreparedRay,
-    hit: &mut TriangleHit,
+    ray: &Ray,
+    leaving: Slot,
+    hit: &mut Found,
 ) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: an `Isa` reaches a tree only through `Isa::in_use` or `is_available`, which saw the features.
-        Isa::Avx2 => unsafe { avx2::nearest(nodes, leaves, ray, hit) },
+        Isa::Avx2 => unsafe { avx2::nearest(nodes, leaves, ray, leaving, hit) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::nearest(nodes, leaves, ray, hit) },
-        _ => portable::nearest(nodes, leaves, ray, hit),
+        Isa::Avx512 => unsafe { avx512::nearest(nodes, leaves, ray, leaving, hit) },
+        _ => portable::nearest(nodes, leaves, ray, leaving, hit),
     }
 }
 
-/// Whether anything is hit before `ray.t_max`.
+/// Whether anything is hit before the ray's end.
 #[inline]
-pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay) -> bool {
+pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, leaving: Slot) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray) },
+        Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray, leaving) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray) },
-        _ => portable::occluded(nodes, leaves, ray),
+        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray, leaving) },
+        _ => portable::occluded(nodes, leaves, ray, leaving),
     }
 }
 
 /// Lanes of a node whose box the ray may meet before `t_max`, a bit each, and where it enters them.
 #[inline]
-pub(super) fn enter(isa: Isa, node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, [f32; WIDTH]) {
+pub(super) fn enter(isa: Isa, node: &Node, slabs: &Slabs, t_max: f32) -> (u32, [f32; WIDTH]) {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx2 => unsafe { avx2::enter(node, ray, t_max) },
+        Isa::Avx2 => unsafe { avx2::enter(node, slabs, t_max) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::enter(node, ray, t_max) },
-        _ => portable::enter(node, ray, t_max),
+        Isa::Avx512 => unsafe { avx512::enter(node, slabs, t_max) },
+        _ => portable::enter(node, slabs, t_max),
     }
 }

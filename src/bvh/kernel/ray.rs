@@ -1,9 +1,9 @@
-//! A ray prepared for slabs and triangles.
+//! What the tests of a ray share.
 
 use crate::bvh::node::TriangleLeaf;
 use crate::bvh::triangles::Slot;
 use crate::math::Ray;
-use glam::{DVec3, Vec3Swizzles};
+use glam::{Vec3, Vec3A, Vec3Swizzles};
 
 /// Widening of a slab's far side: 1 + 2 γ₃ (Ize 2013, "Robust BVH Ray Traversal") and the rounding of its product with
 /// 1/d, rounded up.
@@ -40,62 +40,68 @@ static AXES: [[u32; 4]; 64] = {
     axes
 };
 
-/// A ray with what every box and triangle test of it shares.
+/// What all box tests of a ray share.
+///
+/// This and [`Shear`] are made where they are used, in the kernels: in registers. What is written to memory in parts and
+/// read as a whole, or the other way round, costs a ray more than to make it twice.
 #[derive(Clone, Copy, Debug)]
-pub struct PreparedRay {
-    pub(in crate::bvh) o: [f32; 3],
-    pub(in crate::bvh) d: [f32; 3],
+pub(in crate::bvh) struct Slabs {
+    pub(super) o: Vec3A,
     /// −1/d.
-    pub(in crate::bvh) minus_d_inv: [f32; 3],
+    pub(super) minus_d_inv: Vec3A,
     /// The same, [`FAR`] times.
-    pub(in crate::bvh) minus_d_inv_far: [f32; 3],
+    pub(super) minus_d_inv_far: Vec3A,
     /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
-    pub(in crate::bvh) near: [u32; 4],
-    /// Permutation of the axes: the third is the one along which the direction is longest (Woop et al. 2013).
-    pub(in crate::bvh) axes: [u32; 4],
-    /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
-    pub(in crate::bvh) shear: [f32; 3],
-    pub(in crate::bvh) t_max: f32,
-    /// Leaf that holds the triangle which the ray leaves, and the bit of its lane.
-    pub(in crate::bvh) own_leaf: u32,
-    pub(in crate::bvh) own_lane: u32,
+    pub(super) near: [u32; 4],
 }
 
-impl PreparedRay {
-    /// Of a ray that leaves the triangle at `leaving` of the tree that it is traced in first.
+impl Slabs {
     #[inline(always)]
-    pub fn new(ray: &Ray, leaving: Slot) -> Self {
-        let (own_leaf, own_lane) = leaving.place();
+    pub(in crate::bvh) fn new(ray: &Ray) -> Self {
         let minus_d_inv = -ray.d.recip();
+        let near = NEAR[ray.d.is_negative_bitmask() as usize];
+        Self { o: ray.o, minus_d_inv, minus_d_inv_far: minus_d_inv * FAR, near }
+    }
+}
+
+/// What all triangle tests of a ray share.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shear {
+    /// Permutation of the axes: the third is the one along which the direction is longest (Woop et al. 2013).
+    pub(super) axes: [usize; 3],
+    /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
+    pub(super) shear: [f32; 3],
+    /// Leaf that holds the triangle which the ray leaves, and the lanes of the others there, a bit each.
+    pub(super) own_leaf: u32,
+    pub(super) others: u32,
+}
+
+impl Shear {
+    /// Of a ray that leaves the triangle at `leaving`.
+    #[inline(always)]
+    pub(super) fn new(ray: &Ray, leaving: Slot) -> Self {
         // By look-ups: branches on random directions would be guessed wrong.
         let (size, negative) = (ray.d.abs(), ray.d.is_negative_bitmask() as usize);
         let longest = size.cmpeq(size.zxy().max(size).max(size.yzx())).bitmask() as usize;
         let axes = AXES[longest * 8 + negative];
         let [kx, ky, kz] = [0, 1, 2].map(|i| axes[i].min(2) as usize);
-        let (d, minus_d_inv_far, minus_d_inv) =
-            (ray.d.to_array(), (minus_d_inv * FAR).to_array(), minus_d_inv.to_array());
-        let d_inv = -minus_d_inv[kz];
+        let d: &[f32; 3] = ray.d.as_ref();
+        let d_inv = 1.0 / d[kz];
+        let (own_leaf, own_lane) = leaving.place();
         Self {
-            o: ray.o.to_array(),
-            d,
-            minus_d_inv,
-            minus_d_inv_far,
-            near: NEAR[negative],
-            axes,
+            axes: [kx, ky, kz],
             shear: [d[kx] * d_inv, d[ky] * d_inv, -d_inv],
-            t_max: ray.t_max,
             own_leaf: own_leaf as u32,
-            own_lane: 1 << own_lane,
+            others: !(1 << own_lane),
         }
     }
+}
 
-    /// t = n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64, if it is positive.
-    #[inline]
-    pub(in crate::bvh) fn plane_ahead(&self, leaf: &TriangleLeaf, lane: usize) -> Option<f64> {
-        let double = |v: [f32; 3]| DVec3::new(v[0].into(), v[1].into(), v[2].into());
-        let [a, b, c] = leaf.triangle(lane).map(double);
-        let n = (b - a).cross(c - a);
-        let (height, slope) = (n.dot(a - double(self.o)), n.dot(double(self.d)));
-        (height * slope > 0.0).then(|| height / slope)
-    }
+/// t = n·(a − o)/(n·d) of the plane of a lane's triangle, n = (b − a) × (c − a), in f64, if it is positive.
+#[inline]
+pub(super) fn plane_ahead(ray: &Ray, leaf: &TriangleLeaf, lane: usize) -> Option<f64> {
+    let [a, b, c] = leaf.triangle(lane).map(|v| Vec3::from(v).as_dvec3());
+    let n = (b - a).cross(c - a);
+    let (height, slope) = (n.dot(a - ray.o.as_dvec3()), n.dot(ray.d.as_dvec3()));
+    (height * slope > 0.0).then(|| height / slope)
 }

@@ -3,9 +3,11 @@
 /// `nearest` and `occluded` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
-        use super::{Entry, PreparedRay, Stack};
-        use crate::bvh::node::{LEAF, NONE, Node, TriangleLeaf, WIDTH};
-        use crate::bvh::triangles::{Slot, TriangleHit};
+        use super::ray::{Shear, Slabs, plane_ahead};
+        use super::{Entry, Found, Stack};
+        use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
+        use crate::bvh::triangles::Slot;
+        use crate::math::Ray;
 
         /// γ₂, γ₃ and γ₅ (`math::gamma`).
         const G2: Factor = Factor(crate::math::gamma(2));
@@ -26,26 +28,27 @@ macro_rules! kernels {
         /// Lanes whose box the ray meets before `t_max`, and where it enters them.
         #[inline]
         $(#[$isa])?
-        fn boxes(node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, Lanes) {
+        fn boxes(node: &Node, slabs: &Slabs, t_max: f32) -> (u32, Lanes) {
             // (o − plane) · (−1/d): subtracted from a register, planes need no load of their own.
-            let slab = |axis: usize, plane: usize, d_inv: f32| {
-                Lanes::splat(ray.o[axis]).sub(Lanes::load(&node.planes[plane & 7])).mul(Lanes::splat(d_inv))
+            let [o, d_inv, d_inv_far] = [slabs.o, slabs.minus_d_inv, slabs.minus_d_inv_far].map(|v| v.to_array());
+            let slab = |axis: usize, plane: usize, d_inv: [f32; 3]| {
+                Lanes::splat(o[axis]).sub(Lanes::load(&node.planes[plane & 7])).mul(Lanes::splat(d_inv[axis]))
             };
             // 0 · ∞ (a ray inside the plane of a slab) is NaN: min and max then keep their second operand.
             let mut near = Lanes::splat(0.0);
             let mut far = Lanes::splat(t_max);
             for axis in 0..3 {
-                let plane = ray.near[axis] as usize;
-                near = slab(axis, plane, ray.minus_d_inv[axis]).max(near);
-                far = slab(axis, plane ^ 1, ray.minus_d_inv_far[axis]).min(far);
+                let plane = slabs.near[axis] as usize;
+                near = slab(axis, plane, d_inv).max(near);
+                far = slab(axis, plane ^ 1, d_inv_far).min(far);
             }
             (near.le(far), near)
         }
 
         /// Boxes that are met; see [`super::enter`].
         $(#[$isa])?
-        pub(super) fn enter(node: &Node, ray: &PreparedRay, t_max: f32) -> (u32, [f32; WIDTH]) {
-            let (met, near) = boxes(node, ray, t_max);
+        pub(super) fn enter(node: &Node, slabs: &Slabs, t_max: f32) -> (u32, [f32; WIDTH]) {
+            let (met, near) = boxes(node, slabs, t_max);
             (met, near.to_array())
         }
 
@@ -63,15 +66,17 @@ macro_rules! kernels {
         fn triangles<const NEAREST: bool>(
             leaves: &[TriangleLeaf],
             index: u32,
-            ray: &PreparedRay,
+            ray: &Ray,
+            shear: &Shear,
             t_max: f32,
         ) -> (u32, [Lanes; 4]) {
             let leaf = &leaves[index as usize];
-            let others = if index == ray.own_leaf { !ray.own_lane } else { !0 };
-            let [kx, ky, kz] = [0, 1, 2].map(|i| ray.axes[i].min(2) as usize);
-            let [sx, sy, sz] = ray.shear;
+            let others = if index == shear.own_leaf { shear.others } else { !0 };
+            let o: &[f32; 3] = ray.o.as_ref();
+            let [kx, ky, kz] = shear.axes.map(|axis| axis.min(2));
+            let [sx, sy, sz] = shear.shear;
             let (sx, sy, sz) = (Lanes::splat(sx), Lanes::splat(sy), Lanes::splat(sz));
-            let (ox, oy, oz) = (Lanes::splat(ray.o[kx]), Lanes::splat(ray.o[ky]), Lanes::splat(ray.o[kz]));
+            let (ox, oy, oz) = (Lanes::splat(o[kx]), Lanes::splat(o[ky]), Lanes::splat(o[kz]));
             // All coordinates negated, which changes no product of two of them; the third is turned back by its factor.
             let vertex = |i: usize| {
                 let z = oz.sub(Lanes::load(&leaf.v[i][kz]));
@@ -138,12 +143,12 @@ macro_rules! kernels {
         #[cold]
         #[inline(never)]
         $(#[$isa])?
-        fn decide(leaf: &TriangleLeaf, ray: &PreparedRay, t_max: f32, mut doubtful: u32, t: Lanes) -> (u32, Lanes) {
+        fn decide(leaf: &TriangleLeaf, ray: &Ray, t_max: f32, mut doubtful: u32, t: Lanes) -> (u32, Lanes) {
             let (mut hits, mut exact) = (0, t.to_array());
             while doubtful != 0 {
                 let lane = doubtful.trailing_zeros() as usize & 7;
                 doubtful &= doubtful - 1;
-                let Some(t) = ray.plane_ahead(leaf, lane) else { continue };
+                let Some(t) = plane_ahead(ray, leaf, lane) else { continue };
                 exact[lane] = t as f32;
                 hits |= u32::from(exact[lane] < t_max) << lane;
             }
@@ -164,7 +169,14 @@ macro_rules! kernels {
 
         /// Nearest hit; see [`super::nearest`].
         $(#[$isa])?
-        pub(super) fn nearest(nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay, hit: &mut TriangleHit) -> bool {
+        pub(super) fn nearest(
+            nodes: &[Node],
+            leaves: &[TriangleLeaf],
+            ray: &Ray,
+            leaving: Slot,
+            hit: &mut Found,
+        ) -> bool {
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, leaving));
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
@@ -172,7 +184,7 @@ macro_rules! kernels {
             loop {
                 if child & LEAF != 0 {
                     // Keep the nearest triangle of the leaf.
-                    let (mut hits, [t, v, w, det_inv]) = triangles::<true>(leaves, child & !LEAF, ray, t_max);
+                    let (mut hits, [t, v, w, det_inv]) = triangles::<true>(leaves, child & !LEAF, ray, shear, t_max);
                     if hits != 0 {
                         let [t, v, w, det_inv] = [t.to_array(), v.to_array(), w.to_array(), det_inv.to_array()];
                         while hits != 0 {
@@ -180,13 +192,8 @@ macro_rules! kernels {
                             hits &= hits - 1;
                             if t[lane] < t_max {
                                 t_max = t[lane];
-                                *hit = TriangleHit {
-                                    t: t[lane],
-                                    u: v[lane] * det_inv[lane],
-                                    v: w[lane] * det_inv[lane],
-                                    triangle: NONE,
-                                    slot: Slot::new(child & !LEAF, lane as u32),
-                                };
+                                let slot = Slot::new(child & !LEAF, lane as u32);
+                                *hit = Found::new(t[lane], v[lane] * det_inv[lane], w[lane] * det_inv[lane], slot);
                                 found = true;
                             }
                         }
@@ -194,7 +201,7 @@ macro_rules! kernels {
                 } else {
                     // Go on to the nearest child that is met, and keep the others.
                     let node = &nodes[child as usize];
-                    let (mut met, near) = boxes(node, ray, t_max);
+                    let (mut met, near) = boxes(node, slabs, t_max);
                     if met != 0 {
                         let near = near.to_array();
                         let mut take = || {
@@ -257,18 +264,20 @@ macro_rules! kernels {
 
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
-        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &PreparedRay) -> bool {
+        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, leaving: Slot) -> bool {
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, leaving));
             let (mut stack, mut size) = (Stack::new(), 0);
+            let t_max = ray.t_max;
             let mut child = 0;
             loop {
                 if child & LEAF != 0 {
-                    if triangles::<false>(leaves, child & !LEAF, ray, ray.t_max).0 != 0 {
+                    if triangles::<false>(leaves, child & !LEAF, ray, shear, t_max).0 != 0 {
                         return true;
                     }
                 } else {
                     // Go on to the last child that is met, and keep the others.
                     let node = &nodes[child as usize];
-                    let (mut met, _) = boxes(node, ray, ray.t_max);
+                    let (mut met, _) = boxes(node, slabs, t_max);
                     if met != 0 {
                         loop {
                             let lane = met.trailing_zeros() as usize & 7;
