@@ -97,7 +97,7 @@ proptest! {
             let at = (target.min + target.max) * 0.5;
             let ray = Ray::new(o, (at - o).normalize());
             let mut asked = vec![0; n];
-            bvh.traverse(&ray, |i, _| { asked[i as usize] += 1; None });
+            bvh.traverse(&ray, ray.t_max, |i, _| { asked[i as usize] += 1; None });
             let i = boxes.iter().position(|b| *b == target).unwrap();
             prop_assert_eq!(asked[i], 1);
             prop_assert!(asked.iter().all(|&n| n <= 1));

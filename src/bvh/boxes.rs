@@ -26,27 +26,27 @@ impl BoxBvh {
         Self { nodes: tree.nodes, leaves, bounds, isa: Isa::in_use() }
     }
 
-    /// Asks `hit(id, ray)` of the contents of every box that the ray may meet, near ones first. `hit` returns the
-    /// new end of the ray where the content was met before `ray.t_max`; boxes beyond it are not asked. Stops early
-    /// where `hit` returns an end of 0 or less. True where anything was met.
+    /// Asks `hit(id, t_max)` of the contents of every box that the ray may meet before `t_max`, near ones first. `hit` returns
+    /// the new end where the content was met before that; boxes beyond it are not asked. Stops early where `hit` returns an
+    /// end of 0 or less. True where anything was met.
     #[inline(always)]
-    pub fn traverse(&self, ray: &Ray, mut hit: impl FnMut(u32, &Ray) -> Option<f32>) -> bool {
+    pub fn traverse(&self, ray: &Ray, mut t_max: f32, mut hit: impl FnMut(u32, f32) -> Option<f32>) -> bool {
         if self.nodes.is_empty() {
             return false;
         }
-        let (mut ray, slabs) = (*ray, Slabs::new(ray));
+        let slabs = Slabs::new(ray);
         let (mut stack, mut size) = (Stack::new(), 0);
         stack.push(&mut size, Entry::new(0.0, 0));
         let mut found = false;
         while let Some(next) = stack.pop(&mut size) {
-            if next.near() > ray.t_max {
+            if next.near() > t_max {
                 continue;
             }
             let child = next.child();
             if child & LEAF != 0 {
-                if let Some(t) = hit(self.leaves[(child & !LEAF) as usize], &ray) {
+                if let Some(t) = hit(self.leaves[(child & !LEAF) as usize], t_max) {
                     found = true;
-                    ray.t_max = t;
+                    t_max = t;
                     if t <= 0.0 {
                         return true;
                     }
@@ -55,7 +55,7 @@ impl BoxBvh {
             }
             let first = size;
             let node = &self.nodes[child as usize];
-            let (mut met, near) = kernel::enter(self.isa, node, &slabs, ray.t_max);
+            let (mut met, near) = kernel::enter(self.isa, node, &slabs, t_max);
             while met != 0 {
                 let lane = met.trailing_zeros() as usize & 7;
                 met &= met - 1;

@@ -47,14 +47,6 @@ pub fn renormalize(v: Vec3A) -> Vec3A {
     v * (1.5 - 0.5 * v.length_squared())
 }
 
-/// `a` or `b` by bits, for choices that a branch would mostly guess wrong (the baseline of x86-64 has no other choice of
-/// floats).
-#[inline]
-pub fn select(condition: bool, a: f32, b: f32) -> f32 {
-    let mask = u32::from(condition).wrapping_neg();
-    f32::from_bits((a.to_bits() & mask) | (b.to_bits() & !mask))
-}
-
 /// Difference of products a·b − c·d with the rounding error of one fused operation where the machine has it
 /// (Kahan; Jeannerod et al. 2013), computed here in f64, which holds both products of f32 exactly.
 #[inline]

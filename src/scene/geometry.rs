@@ -165,16 +165,16 @@ impl Geometry {
         if self.objects.is_empty() {
             return nearest;
         }
-        let rest = Ray { t_max: nearest.map_or(ray.t_max, |hit| hit.t), ..*ray };
-        self.nearest_object(&rest, leaving).or(nearest)
+        let t_max = nearest.map_or(ray.t_max, |hit| hit.t);
+        self.nearest_object(ray, t_max, leaving).or(nearest)
     }
 
-    /// Nearest hit of instances and quadrics in (0, `ray.t_max`).
+    /// Nearest hit of instances and quadrics in (0, `t_max`).
     #[inline(never)]
-    fn nearest_object(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
+    fn nearest_object(&self, ray: &Ray, t_max: f32, leaving: Departure) -> Option<Hit> {
         let mut nearest = None;
-        self.objects.traverse(ray, |object, ray| {
-            let hit = self.object(object, ray, leaving)?;
+        self.objects.traverse(ray, t_max, |object, t_max| {
+            let hit = self.object(object, ray, t_max, leaving)?;
             nearest = Some(hit);
             Some(hit.t)
         });
@@ -191,27 +191,29 @@ impl Geometry {
     /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
     #[inline(never)]
     fn occluded_by_object(&self, ray: &Ray, leaving: Departure) -> bool {
-        self.objects.traverse(ray, |object, ray| {
+        self.objects.traverse(ray, ray.t_max, |object, t_max| {
             match self.instances.get(object as usize) {
                 Some(instance) => {
-                    instance.occluded(&self.prototypes[instance.prototype as usize], ray, leaving.from(object))
+                    let prototype = &self.prototypes[instance.prototype as usize];
+                    instance.occluded(prototype, ray, t_max, leaving.from(object))
                 }
-                None => self.quadrics[object as usize - self.instances.len()].0.intersect(ray).is_some(),
+                None => self.quadrics[object as usize - self.instances.len()].0.intersect_before(ray, t_max).is_some(),
             }
             .then_some(0.0)
         })
     }
 
-    /// Nearest hit of one instance or quadric.
-    fn object(&self, object: u32, ray: &Ray, leaving: Departure) -> Option<Hit> {
+    /// Nearest hit of one instance or quadric in (0, `t_max`).
+    #[inline]
+    fn object(&self, object: u32, ray: &Ray, t_max: f32, leaving: Departure) -> Option<Hit> {
         match self.instances.get(object as usize) {
             Some(instance) => {
                 let prototype = &self.prototypes[instance.prototype as usize];
-                let triangle = instance.nearest(prototype, ray, leaving.from(object))?;
+                let triangle = instance.nearest(prototype, ray, t_max, leaving.from(object))?;
                 Some(Hit { t: triangle.t, triangle, object })
             }
             None => {
-                let t = self.quadrics[object as usize - self.instances.len()].0.intersect(ray)?;
+                let t = self.quadrics[object as usize - self.instances.len()].0.intersect_before(ray, t_max)?;
                 Some(Hit { t, triangle: TriangleHit::default(), object })
             }
         }
@@ -292,24 +294,24 @@ impl Instance {
     /// The ray in object space, and how much of its parameter was skipped: its origin is rounded, and hits nearer than
     /// that error are none, or the surface that the ray leaves could be met again (PBRT 4th ed., section 6.8.5).
     #[inline]
-    fn ray(&self, ray: &Ray) -> (Ray, f32) {
+    fn ray(&self, ray: &Ray, t_max: f32) -> (Ray, f32) {
         let m = &self.transform.to_object;
         let o = m.transform_point3a(ray.o);
         let d = m.transform_vector3a(ray.d);
         let error = (abs(&m.matrix3) * ray.o.abs() + m.translation.abs()) * gamma(4);
         let shift = d.abs().dot(error) / d.length_squared();
-        (Ray { o: o + d * shift, d, t_max: ray.t_max - shift }, shift)
+        (Ray { o: o + d * shift, d, t_max: t_max - shift }, shift)
     }
 
-    fn nearest(&self, prototype: &Prototype, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
-        let (local, skipped) = self.ray(ray);
+    fn nearest(&self, prototype: &Prototype, ray: &Ray, t_max: f32, leaving: Slot) -> Option<TriangleHit> {
+        let (local, skipped) = self.ray(ray, t_max);
         let mut hit = prototype.bvh.nearest(&local, leaving)?;
         hit.t += skipped;
         Some(hit)
     }
 
-    fn occluded(&self, prototype: &Prototype, ray: &Ray, leaving: Slot) -> bool {
-        prototype.bvh.occluded(&self.ray(ray).0, leaving)
+    fn occluded(&self, prototype: &Prototype, ray: &Ray, t_max: f32, leaving: Slot) -> bool {
+        prototype.bvh.occluded(&self.ray(ray, t_max).0, leaving)
     }
 
     fn bounds(&self, prototype: &Prototype) -> Aabb {

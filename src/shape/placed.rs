@@ -28,18 +28,33 @@ impl PlacedQuadric {
         Self { quadric, transform, reversed, to_world, to_object: to_world.inverse() }
     }
 
-    /// Nearest intersection in `(0, t_max)`.
+    /// Nearest intersection in `(0, ray.t_max)`.
+    #[inline]
+    pub fn intersect(&self, ray: &Ray) -> Option<f32> {
+        self.intersect_before(ray, ray.t_max)
+    }
+
+    /// Nearest intersection in `(0, t_max)`, whatever the ray says of its end.
     ///
     /// A root counts only beyond the error that rounding in the map leaves on the origin, |d|·δₒ/|d|² in units of t
     /// (PBRT 4th ed., section 6.8.5); in f64 that is far below one step of an f32 origin, so nothing real is lost.
     #[inline]
-    pub fn intersect(&self, ray: &Ray) -> Option<f32> {
+    pub fn intersect_before(&self, ray: &Ray, t_max: f32) -> Option<f32> {
         let (o, d) = self.ray_to_object(ray);
         let o_error =
             (self.to_object.matrix3.abs() * ray.o.as_dvec3().abs() + self.to_object.translation.abs()) * ROUNDING;
         let t_min = d.abs().dot(o_error) / d.length_squared();
         // The end is compared after rounding: a ray cut at its own hit is open there.
-        self.quadric.roots(o, d).into_iter().flatten().filter(|t| *t > t_min).map(|t| t as f32).find(|t| *t < ray.t_max)
+        let [near, far] = self.quadric.roots(o, d);
+        let (near, far) =
+            (if near > t_min { near as f32 } else { f32::NAN }, if far > t_min { far as f32 } else { f32::NAN });
+        if near < t_max {
+            Some(near)
+        } else if far < t_max {
+            Some(far)
+        } else {
+            None
+        }
     }
 
     /// The surface where `ray` meets it at `t`, in world space; texture coordinates and tangent only where it is to be

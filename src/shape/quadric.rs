@@ -81,13 +81,14 @@ impl Quadric {
         }
     }
 
-    /// Parameters of the points in which the line o + t d meets the quadric, ascending, of either sign.
+    /// Parameters of the points in which the line o + t d meets the quadric, ascending, of either sign; NaN for those that
+    /// there are not.
     ///
     /// a t² + 2 b t + c = 0 with q = −(b + sgn(b) √(b² − ac)), t = q/a and c/q (Numerical Recipes, section 5.6): no
     /// root is a difference of nearly equal numbers. The discriminant is a (r² − ρ²) with ρ the distance of the line
     /// from the centre (PBRT 4th ed., section 6.8.3), c is (|o| − r)(|o| + r).
-    #[inline]
-    pub fn roots(&self, o: DVec3, d: DVec3) -> [Option<f64>; 2] {
+    #[inline(always)]
+    pub fn roots(&self, o: DVec3, d: DVec3) -> [f64; 2] {
         match *self {
             Self::Sphere { radius } => {
                 let r = f64::from(radius);
@@ -98,7 +99,7 @@ impl Quadric {
             Self::Disk { radius } => {
                 let t = -o.z / d.z;
                 let p = o.truncate() + d.truncate() * t;
-                [(p.length_squared() <= f64::from(radius).powi(2)).then_some(t), None]
+                [if p.length_squared() <= f64::from(radius).powi(2) { t } else { f64::NAN }, f64::NAN]
             }
             Self::Cylinder { radius, height } => {
                 let r = f64::from(radius);
@@ -106,21 +107,22 @@ impl Quadric {
                 let (a, b) = (d2.length_squared(), o2.dot(d2));
                 let distance = (o2 - d2 * (b / a)).length();
                 quadratic(a, b, (o2.length() - r) * (o2.length() + r), a * (r - distance) * (r + distance))
-                    .map(|t| t.filter(|t| (0.0..=f64::from(height)).contains(&(o.z + d.z * t))))
+                    .map(|t| if (0.0..=f64::from(height)).contains(&(o.z + d.z * t)) { t } else { f64::NAN })
             }
         }
     }
 
     /// Nearest intersection in `(0, t_max)` with a ray of object space, whose direction may have any length.
     pub fn intersect(&self, o: Vec3, d: Vec3, t_max: f32) -> Option<f32> {
-        let roots = self.roots(o.as_dvec3(), d.as_dvec3()).into_iter().flatten();
-        roots.map(|t| t as f32).find(|t| *t > 0.0 && *t < t_max)
+        let roots = self.roots(o.as_dvec3(), d.as_dvec3());
+        roots.map(|t| t as f32).into_iter().find(|t| *t > 0.0 && *t < t_max)
     }
 
     /// The point of the ray at the root nearest to `t`, exact where `t` was rounded to f32.
     pub(super) fn refine(&self, o: DVec3, d: DVec3, t: f64) -> QuadricPoint {
-        let root = self.roots(o, d).into_iter().flatten().min_by(|a, b| (a - t).abs().total_cmp(&(b - t).abs()));
-        self.project(o + d * root.unwrap_or(t))
+        let [a, b] = self.roots(o, d);
+        let root = if a.is_nan() || (b - t).abs() < (a - t).abs() { b } else { a };
+        self.project(o + d * if root.is_nan() { t } else { root })
     }
 
     /// The surface where an object-space ray meets it at `t`.
@@ -196,18 +198,18 @@ impl Quadric {
     }
 }
 
-/// Roots of a t² + 2 b t + c, ascending, given its discriminant b² − ac.
-#[inline]
-fn quadratic(a: f64, b: f64, c: f64, discriminant: f64) -> [Option<f64>; 2] {
+/// Roots of a t² + 2 b t + c, ascending, given its discriminant b² − ac; NaN for those that there are not.
+#[inline(always)]
+fn quadratic(a: f64, b: f64, c: f64, discriminant: f64) -> [f64; 2] {
     if !(discriminant >= 0.0 && a > 0.0) {
-        return [None, None];
+        return [f64::NAN; 2];
     }
     let q = -(b + discriminant.sqrt().copysign(b));
     if q == 0.0 {
-        return [Some(0.0), None];
+        return [0.0, f64::NAN];
     }
     let (t0, t1) = (q / a, c / q);
-    [Some(t0.min(t1)), Some(t0.max(t1))]
+    if t0 < t1 { [t0, t1] } else { [t1, t0] }
 }
 
 /// Angle of a vector about the axis, in turns in \[0, 1\].
