@@ -123,13 +123,14 @@ impl Embree {
 }
 
 impl Tree<'_> {
-    /// Number of rays that meet something, and Σ t of nearest hits.
-    pub(crate) fn answer(&self, query: Query, rays: &[Ray]) -> (usize, f64) {
+    /// Number of rays that meet something, and Σ t of nearest hits, where nothing counts nearer than `near` times the largest
+    /// coordinate of a ray's origin.
+    pub(crate) fn answer(&self, query: Query, rays: &[Ray], near: f32) -> (usize, f64) {
         let Embree { intersect, occluded, .. } = *self.embree;
         let (mut met, mut sum) = (0, 0.0);
         for ray in rays {
-            let (o, d) = (ray.o, ray.d);
-            let (origin, direction) = ([o.x, o.y, o.z, 0.0], [d.x, d.y, d.z, 0.0]);
+            let near = near * ray.o.abs().max_element();
+            let (origin, direction) = (ray.o.extend(near).to_array(), ray.d.extend(0.0).to_array());
             let far = [ray.t_max.to_bits(), u32::MAX, 0, 0];
             let mut ray = PlainRay { origin, direction, far };
             match query {
