@@ -32,6 +32,10 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let (mut scratch, mut vertex) = (Bsdf::new(), Vertex::NOWHERE);
 
     for depth in 0.. {
+        // Numbers of the next vertex, which do not wait for it: they are there when it is.
+        let [choose_light, choose_lobe] = sampler.next_2d();
+        let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
+
         watch.ray();
         let met = scene.meet(&ray, leaving, &mut inside, &mut || sampler.next_1d(), &mut vertex);
         beta *= medium::on_the_way(method, &ray, met.then_some(&vertex), &inside);
@@ -60,9 +64,6 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         if depth == method.max_depth || shading.bsdf.is_empty() {
             break;
         }
-        let [choose_light, choose_lobe] = sampler.next_2d();
-        let (u_light, u_bsdf) = (sampler.next_2d(), sampler.next_2d());
-
         let next = scatter::draw(method, vertex, &shading, choose_lobe, u_bsdf, sampler);
 
         // ∫ by light
