@@ -22,7 +22,8 @@
 //!   the surface. `f` \[1/sr\] is the BSDF without the cosine, `pdf` \[1/sr\] a density over solid angle, `le` emitted
 //!   radiance, `beta` the product of `f |cos| / pdf` along the path, `eta` a relative index of refraction (transmitted
 //!   side over incident side), `alpha` GGX roughness, `ng` and `ns` geometric and shading normal.
-//! * Local frames have z = `ns`. World space is right-handed; cameras look along −z with +y up.
+//! * Local frames have z = `ns`. World space is right-handed; cameras look along −z with +y up. What rays meet and carry in
+//!   world (or object) space is a `Vec3A`, one SIMD register; local directions and what is stored in files are `Vec3`.
 //! * Metres; W·sr⁻¹·m⁻² for radiance, W·sr⁻¹ for intensity, W·m⁻² for irradiance; nm; radians in code, degrees in
 //!   files. Photometric numbers of glTF are carried one to one into the linear RGB lanes.
 //! * f32 in tracing, f64 in film sums, statistics and closed forms.
