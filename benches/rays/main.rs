@@ -9,7 +9,8 @@
 //! Kernels that this CPU has beside its best stand under their names, on trees of the default quality; the best kernel under the names
 //! of all qualities. One thread, its CPU time, all contenders in turn on the same rays of one process, medians of eleven turns. A ratio of 1.25 is
 //! a quarter more rays in the same time. Rays that leave a surface do not meet it again: ours know which triangle it was, as the
-//! renderer's do, Embree's begin a little later, as its users have it. With `--untold` neither is so. Also prints the seconds that each tree took to build, and how often hits differ.
+//! renderer's do, Embree's begin a little later, as its users have it. With `--untold` neither is so. Also prints the seconds
+//! that each tree took to build, and how often hits differ.
 
 mod embree;
 mod scenes;
@@ -24,49 +25,32 @@ use std::rc::Rc;
 
 const TURNS: usize = 11;
 
-/// What a contender is told so that rays do not meet the surfaces that they leave.
-enum Told {
-    /// Which triangles those are.
-    Slots(Vec<Slot>),
-    /// That nothing counts nearer than so many times the largest coordinate of the origin.
-    Near(f32),
-}
-
-/// Where Embree's rays begin, [`Told::Near`]: what Mitsuba 3 moves its origins by.
+/// Where Embree's rays begin that leave a surface, in the largest coordinate of their origin: what Mitsuba 3 moves its origins by.
 const NEAR: f32 = 1500.0 * 0.5 * f32::EPSILON;
 
-/// Number of rays that meet something, and Σ t of nearest hits.
-type Answer<'a> = Box<dyn Fn(Query, &[Ray], &Told) -> (usize, f64) + 'a>;
+/// Traces the rays of a set: the number that meet something, and Σ t of nearest hits.
+type Run<'a> = Box<dyn Fn(&[Ray]) -> (usize, f64) + 'a>;
 
-/// What is told of the rays of a set.
-type Telling<'a> = Box<dyn Fn(&RaySet) -> Told + 'a>;
-
-/// Something that answers both queries.
+/// Something that answers both queries, once it knows of a set what it may know.
 struct Contender<'a> {
     name: String,
-    answer: Answer<'a>,
-    telling: Telling<'a>,
+    prepare: Box<dyn Fn(&RaySet) -> Run<'a> + 'a>,
 }
 
-/// One of ours: the rays know which triangle they leave, as the renderer's do, where they are `told`.
+/// One of ours: rays know which triangle they leave, as the renderer's do, where they are `told`.
 fn own<'a>(name: &str, bvh: TriangleBvh, told: bool) -> Contender<'a> {
     let bvh = Rc::new(bvh);
-    let tree = bvh.clone();
-    let slot = move |ray: &Ray| tree.nearest(ray, Slot::NONE).map_or(Slot::NONE, |hit| hit.slot);
-    Contender {
-        name: name.into(),
-        answer: Box::new(move |query, rays, told| match told {
-            Told::Slots(leaving) => ours(&bvh, query, rays, leaving),
-            Told::Near(_) => ours(&bvh, query, rays, &vec![Slot::NONE; rays.len()]),
-        }),
-        telling: Box::new(move |set| {
-            Told::Slots(if told && !set.parents.is_empty() {
-                set.parents.iter().map(&slot).collect()
-            } else {
-                vec![Slot::NONE; set.rays.len()]
-            })
-        }),
-    }
+    let prepare = move |set: &RaySet| {
+        let slot = |ray: &Ray| bvh.nearest(ray, Slot::NONE).map_or(Slot::NONE, |hit| hit.slot);
+        let leaving: Vec<Slot> = if told && set.leaves_surfaces() {
+            set.parents.iter().map(slot).collect()
+        } else {
+            vec![Slot::NONE; set.rays.len()]
+        };
+        let (bvh, query) = (bvh.clone(), set.query);
+        Box::new(move |rays: &[Ray]| ours(&bvh, query, rays, &leaving)) as Run
+    };
+    Contender { name: name.into(), prepare: Box::new(prepare) }
 }
 
 fn main() {
@@ -137,13 +121,13 @@ fn race(scene: &Meshed, library: Option<&Embree>, told: bool, sums: &mut Vec<Geo
             let tree = library.build(positions, indices, quality, robust);
             let how = if robust { "robust" } else { "fast" };
             println!("  Embree {quality:?} {how}: built in {:.2} s", start.elapsed().as_secs_f64());
-            let answer = move |query, rays: &[Ray], told: &Told| match told {
-                Told::Near(near) => tree.answer(query, rays, *near),
-                Told::Slots(_) => tree.answer(query, rays, 0.0),
+            let tree = Rc::new(tree);
+            let prepare = move |set: &RaySet| {
+                let near = if told && set.leaves_surfaces() { NEAR } else { 0.0 };
+                let (tree, query) = (tree.clone(), set.query);
+                Box::new(move |rays: &[Ray]| tree.answer(query, rays, near)) as Run
             };
-            let telling = move |set: &RaySet| Told::Near(if told && !set.parents.is_empty() { NEAR } else { 0.0 });
-            let name = format!("Embree {how}");
-            contenders.push(Contender { name, answer: Box::new(answer), telling: Box::new(telling) });
+            contenders.push(Contender { name: format!("Embree {how}"), prepare: Box::new(prepare) });
         }
     }
 
@@ -153,12 +137,12 @@ fn race(scene: &Meshed, library: Option<&Embree>, told: bool, sums: &mut Vec<Geo
     for set in &sets {
         let RaySet { name, query, rays, .. } = set;
         let mut seconds = vec![Vec::with_capacity(TURNS); contenders.len()];
-        let told: Vec<_> = contenders.iter().map(|c| (c.telling)(set)).collect();
-        let answers: Vec<_> = contenders.iter().zip(&told).map(|(c, told)| (c.answer)(*query, rays, told)).collect();
+        let runs: Vec<Run> = contenders.iter().map(|c| (c.prepare)(set)).collect();
+        let answers: Vec<_> = runs.iter().map(|run| run(rays)).collect();
         for _ in 0..TURNS {
-            for ((contender, told), seconds) in contenders.iter().zip(&told).zip(&mut seconds) {
+            for (run, seconds) in runs.iter().zip(&mut seconds) {
                 let start = ThreadTime::now();
-                black_box((contender.answer)(*query, black_box(rays), told));
+                black_box(run(black_box(rays)));
                 seconds.push(start.elapsed().as_secs_f64());
             }
         }

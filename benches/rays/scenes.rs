@@ -29,6 +29,13 @@ pub(crate) struct RaySet {
     pub(crate) parents: Vec<Ray>,
 }
 
+impl RaySet {
+    /// Its rays leave surfaces, not the camera.
+    pub(crate) fn leaves_surfaces(&self) -> bool {
+        !self.parents.is_empty()
+    }
+}
+
 /// Rays, and those whose hits they leave.
 #[derive(Default)]
 struct Left {
