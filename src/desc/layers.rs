@@ -50,16 +50,6 @@ impl Layers {
         *self == Self::default()
     }
 
-    /// All textures.
-    pub fn textures(&self) -> impl Iterator<Item = TextureRef> {
-        let anisotropy = self.anisotropy.map_or([None; 2], |a| [a.strength.texture.map(|t| t.0), a.direction]);
-        let sheen = self.sheen.map_or([None; 2], |s| [s.color.texture, s.roughness.texture.map(|t| t.0)]);
-        let coat = self.clearcoat.map_or([None; 3], |c| {
-            [c.factor.texture.map(|t| t.0), c.roughness.texture.map(|t| t.0), c.normal_map.map(|map| map.texture)]
-        });
-        anisotropy.into_iter().chain(sheen).chain(coat).flatten()
-    }
-
     /// What wants tangents, if anything: the map of the coat's normals, or anisotropy with the UV of its texture.
     pub fn tangent_map(&self) -> Option<TextureRef> {
         let coat = self.clearcoat.and_then(|c| c.normal_map).map(|map| map.texture);

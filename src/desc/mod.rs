@@ -17,13 +17,16 @@ mod layers;
 mod load;
 mod material;
 mod mesh_check;
+mod model;
 pub mod obj;
+pub mod parameter;
 mod place;
 pub mod ply;
 pub mod primitives;
 mod settings;
 mod shape;
 pub mod sky;
+pub mod specimens;
 pub mod toml;
 
 pub use camera::{Camera, Fov, Lens, Projection};
@@ -34,9 +37,9 @@ pub use frame_camera::{bounds, framing};
 pub use interior::{Dispersion, Interior, absorption};
 pub use layers::{Anisotropy, Clearcoat, Layers, Sheen};
 pub use load::{Options, load, load_with};
-pub use material::{
-    Alpha, ColorParam, DiffuseTransmission, Emission, Fresnel, Iridescence, Material, MetallicRoughness, Model,
-    NormalMap, Roughness, ScalarParam, Sides, SpecularGlossiness, Transmission,
+pub use material::{Alpha, ColorParam, Emission, Material, NormalMap, ScalarParam, Sides};
+pub use model::{
+    DiffuseTransmission, Fresnel, Iridescence, MetallicRoughness, Model, Roughness, SpecularGlossiness, Transmission,
 };
 pub use settings::{Filter, Integrator, RenderSettings, SamplerKind, Strategy, Tonemap};
 pub use shape::{Mesh, Object, Shape};

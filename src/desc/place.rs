@@ -1,6 +1,7 @@
 //! Scenes inside scenes.
 
-use super::{Alpha, ColorParam, Fresnel, Light, Material, Model, Object, Roughness, ScalarParam, Scene, Texture};
+use super::parameter::Parameter;
+use super::{Light, Object, Scene, Texture};
 use glam::Mat4;
 
 /// Appends what a scene has to another's lists, except cameras, environment and settings, and returns its objects and
@@ -8,15 +9,20 @@ use glam::Mat4;
 pub(crate) fn append(scene: &mut Scene, mut part: Scene) -> (Vec<Object>, Vec<Light>) {
     let (shapes, materials) = (scene.shapes.len(), scene.materials.len());
     let (textures, images) = (scene.textures.len(), scene.images.len());
+    let shift = &mut |mut parameter: Parameter| {
+        if let Some(texture) = parameter.value.texture_mut() {
+            texture.texture += textures;
+        }
+    };
     for object in &mut part.objects {
         object.shape += shapes;
         object.material += materials;
         if let Some(emission) = &mut object.emission {
-            color(&mut emission.radiance, textures);
+            emission.visit(shift);
         }
     }
     for material in &mut part.materials {
-        shift(material, textures);
+        material.visit(shift);
     }
     for texture in &mut part.textures {
         if let Texture::Image { image, .. } = texture {
@@ -59,86 +65,5 @@ pub(crate) fn moved(light: &Light, m: Mat4) -> Light {
         Light::Sun { direction, irradiance, diameter } => {
             Light::Sun { direction: turn(direction), irradiance, diameter }
         }
-    }
-}
-
-/// Adds `by` to every texture index of a material.
-fn shift(material: &mut Material, by: usize) {
-    if let Some(emission) = &mut material.emission {
-        color(&mut emission.radiance, by);
-    }
-    if let Some(map) = &mut material.normal_map {
-        map.texture.texture += by;
-    }
-    if let Alpha::Mask { coverage, .. } | Alpha::Blend { coverage } = &mut material.alpha {
-        scalar(coverage, by);
-    }
-    model(&mut material.model, by);
-}
-
-fn model(m: &mut Model, by: usize) {
-    match m {
-        Model::Diffuse { reflectance } | Model::Mirror { reflectance } | Model::Phong { reflectance, exponent: _ } => {
-            color(reflectance, by);
-        }
-        Model::RoughDiffuse { reflectance, roughness } => {
-            color(reflectance, by);
-            scalar(roughness, by);
-        }
-        Model::Dielectric { ior: _, roughness: r, tint } => {
-            roughness(r, by);
-            color(tint, by);
-        }
-        Model::Conductor { fresnel, roughness: r } | Model::CookTorrance { fresnel, roughness: r } => {
-            roughness(r, by);
-            if let Fresnel::Schlick { f0 } = fresnel {
-                color(f0, by);
-            }
-        }
-        Model::Mix(parts) => parts.iter_mut().for_each(|(_, part)| model(part, by)),
-        Model::MetallicRoughness(m) => {
-            color(&mut m.base_color, by);
-            color(&mut m.specular_color, by);
-            for s in [&mut m.metallic, &mut m.roughness, &mut m.specular] {
-                scalar(s, by);
-            }
-            if let Some(transmission) = &mut m.transmission {
-                scalar(&mut transmission.factor, by);
-            }
-            if let Some(through) = &mut m.diffuse_transmission {
-                scalar(&mut through.factor, by);
-                color(&mut through.color, by);
-            }
-            if let Some(film) = &mut m.iridescence {
-                scalar(&mut film.factor, by);
-                if let Some((texture, _)) = &mut film.thickness_texture {
-                    texture.texture += by;
-                }
-            }
-        }
-        Model::SpecularGlossiness(m) => {
-            color(&mut m.diffuse, by);
-            color(&mut m.specular, by);
-            scalar(&mut m.glossiness, by);
-        }
-        Model::Absorb => {}
-    }
-}
-
-fn color(c: &mut ColorParam, by: usize) {
-    if let Some(texture) = &mut c.texture {
-        texture.texture += by;
-    }
-}
-
-fn scalar(s: &mut ScalarParam, by: usize) {
-    if let Some((texture, _)) = &mut s.texture {
-        texture.texture += by;
-    }
-}
-
-fn roughness(r: &mut Roughness, by: usize) {
-    if let Roughness::Perceptual(s) | Roughness::Glossiness(s) = r {
-        scalar(s, by);
     }
 }

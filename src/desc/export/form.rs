@@ -4,9 +4,7 @@ use super::ExportError;
 use super::Target;
 use super::beside::Beside;
 use super::mesh::Variant;
-use crate::desc::{
-    Alpha, Emission, Error, Fresnel, Material, Model, Object, Roughness, ScalarParam, Shape, TextureRef,
-};
+use crate::desc::{Emission, Error, Material, Object, Shape, TextureRef};
 use crate::math::Transform;
 use glam::{Mat3, Mat4, Vec3};
 use std::collections::HashMap;
@@ -176,59 +174,10 @@ fn form(shape: &Shape, transform: &Transform, textured: bool) -> Form {
 
 /// Everything that a material, with this emission, looks up.
 fn textures(material: &Material, emission: Option<&Emission>) -> Vec<TextureRef> {
-    let mut found: Vec<TextureRef> = Vec::new();
-    model(&material.model, &mut found);
-    found.extend(material.normal_map.map(|map| map.texture));
-    if let Alpha::Mask { coverage, .. } | Alpha::Blend { coverage } = &material.alpha {
-        found.extend(coverage.texture.map(|t| t.0));
-    }
-    found.extend(emission.and_then(|e| e.radiance.texture));
-    found
-}
-
-fn model(m: &Model, found: &mut Vec<TextureRef>) {
-    let scalar = |s: &ScalarParam| s.texture.map(|t| t.0);
-    let rough = |r: &Roughness| match r {
-        Roughness::Perceptual(s) | Roughness::Glossiness(s) => scalar(s),
-        Roughness::Stretched { roughness, strength } => scalar(roughness).or(scalar(strength)),
-        Roughness::Alpha(_) => None,
-    };
-    match m {
-        Model::Diffuse { reflectance } | Model::Phong { reflectance, .. } | Model::Mirror { reflectance } => {
-            found.extend(reflectance.texture);
-        }
-        Model::RoughDiffuse { reflectance, roughness } => {
-            found.extend(reflectance.texture.into_iter().chain(scalar(roughness)));
-        }
-        Model::Dielectric { roughness, tint, .. } => found.extend(tint.texture.into_iter().chain(rough(roughness))),
-        Model::Conductor { fresnel, roughness } | Model::CookTorrance { fresnel, roughness } => {
-            if let Fresnel::Schlick { f0 } = fresnel {
-                found.extend(f0.texture);
-            }
-            found.extend(rough(roughness));
-        }
-        Model::Mix(parts) => parts.iter().for_each(|(_, part)| model(part, found)),
-        Model::MetallicRoughness(m) => {
-            found.extend(m.base_color.texture);
-            found.extend([&m.metallic, &m.roughness, &m.specular].into_iter().filter_map(scalar));
-            found.extend(m.transmission.as_ref().and_then(|t| scalar(&t.factor)));
-            if let Some(t) = &m.diffuse_transmission {
-                found.extend(scalar(&t.factor).into_iter().chain(t.color.texture));
-            }
-        }
-        Model::SpecularGlossiness(m) => {
-            found.extend(m.diffuse.texture.into_iter().chain(m.specular.texture).chain(scalar(&m.glossiness)));
-        }
-        Model::Absorb => {}
-    }
+    Material { emission: emission.copied(), ..material.clone() }.textures()
 }
 
 /// Name of the medium inside, where that absorbs.
 pub(super) fn medium_of(material: &Material, index: usize) -> Option<String> {
-    let refracts = match &material.model {
-        Model::Dielectric { .. } => true,
-        Model::MetallicRoughness(m) => m.refracts(),
-        _ => false,
-    };
-    (refracts && material.interior.absorption != [0.0; 3]).then(|| format!("medium-{index}"))
+    (material.model.refracts() && material.interior.absorption != [0.0; 3]).then(|| format!("medium-{index}"))
 }

@@ -206,34 +206,6 @@ pub(super) fn tangent_map(m: &Material) -> Option<TextureRef> {
 /// Which of the two UV sets of a mesh the textures of a material look at.
 pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
     let mut used = [false; 2];
-    let mut look = |texture: Option<TextureRef>| {
-        if let Some(t) = texture {
-            used[t.uv_set] = true;
-        }
-    };
-    let scalar = |p: &ScalarParam| p.texture.map(|(t, _)| t);
-    look(m.normal_map.map(|map| map.texture));
-    look(m.emission.and_then(|e| e.radiance.texture));
-    match &m.alpha {
-        Alpha::Opaque => {}
-        Alpha::Mask { coverage, .. } | Alpha::Blend { coverage } => look(scalar(coverage)),
-    }
-    if let Model::SpecularGlossiness(p) = &m.model {
-        [p.diffuse.texture, p.specular.texture, scalar(&p.glossiness)].into_iter().for_each(&mut look);
-    }
-    if let Model::MetallicRoughness(p) = &m.model {
-        look(p.base_color.texture);
-        look(p.specular_color.texture);
-        look(p.diffuse_transmission.as_ref().and_then(|t| t.color.texture));
-        look(p.diffuse_transmission.as_ref().and_then(|t| scalar(&t.factor)));
-        let scalars =
-            [Some(&p.metallic), Some(&p.roughness), Some(&p.specular), p.transmission.as_ref().map(|t| &t.factor)];
-        scalars.into_iter().flatten().for_each(|p| look(scalar(p)));
-        p.layers.textures().for_each(|t| look(Some(t)));
-        if let Some(film) = &p.iridescence {
-            look(scalar(&film.factor));
-            look(film.thickness_texture.map(|(t, _)| t));
-        }
-    }
+    m.textures().iter().for_each(|t| used[t.uv_set] = true);
     used
 }

@@ -6,7 +6,7 @@
 use super::material::{Albedo, COSINES, albedo, in_words};
 use super::places::places;
 use super::unique;
-use super::worn::{Worn, refracts};
+use super::worn::Worn;
 use crate::desc::{self, Model};
 use crate::sampler::hash;
 use crate::scene::Scene;
@@ -46,7 +46,7 @@ pub fn conformance(desc: &desc::Scene, scene: &Scene) -> Vec<Conformance> {
 /// The largest albedo of a material over some places, from above and, where it refracts, from below.
 fn most(desc: &desc::Scene, scene: &Scene, index: usize, places_of_one: usize) -> Option<Albedo> {
     let written = &desc.materials[index];
-    let sides: &[f64] = if refracts(&written.model) { &[1.0, -1.0] } else { &[1.0] };
+    let sides: &[f64] = if written.model.refracts() { &[1.0, -1.0] } else { &[1.0] };
     let mut found = Vec::new();
     for (number, place) in places(desc, written, index).iter().take(places_of_one).enumerate() {
         let worn = Worn { material: &scene.materials[index], textures: &scene.textures, place };

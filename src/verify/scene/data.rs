@@ -2,7 +2,8 @@
 
 use super::surfaces::meshes;
 use super::{Subject, count, unique};
-use crate::desc::{self, Fresnel, Light, Mesh, Model, Pixels, Roughness};
+use crate::desc::parameter::Role;
+use crate::desc::{self, Light, Mesh, Model, Pixels};
 use crate::verify::{Findings, Task, Topic};
 
 const TOPIC: Topic = Topic {
@@ -110,99 +111,28 @@ fn mesh(name: &str, mesh: &Mesh, faults: &mut Faults) {
 
 /// The parameters of a model.
 fn model(name: &str, model: &Model, faults: &mut Faults) {
-    for (what, value, bounds) in parameters(model) {
-        let (odd, expected) = match bounds {
-            Bounds::Share => (!(0.0..=1.0).contains(&value), "a number in [0, 1], to which it is clamped"),
-            Bounds::Positive => (!(value.is_finite() && value > 0.0), "a positive number"),
-            Bounds::NotNegative => (!(value.is_finite() && value >= 0.0), "a number ≥ 0"),
-        };
-        if odd {
-            faults.odd.push(format!("`{name}`: {what} is {value}, expected {expected}"));
-        }
-    }
+    model.clone().visit(&mut |mut parameter| {
+        let (what, bounds) = (parameter.name, parameter.bounds);
+        // Of a weight that is out of bounds its mixture tells.
+        let values = parameter.value.factors().iter().filter(|_| parameter.role != Role::Weight);
+        faults.odd.extend(
+            values
+                .filter(|x| !bounds.contain(**x))
+                .map(|x| format!("`{name}`: {what} is {x}, expected {}", bounds.in_words())),
+        );
+    });
+    mixtures(name, model, faults);
+}
+
+/// The weights of mixtures.
+fn mixtures(name: &str, model: &Model, faults: &mut Faults) {
     if let Model::Mix(parts) = model {
         let sum: f32 = parts.iter().map(|(weight, _)| weight).sum();
         if sum.is_nan() || sum > 1.0 + 1e-5 || parts.iter().any(|(weight, _)| *weight < 0.0) {
             let weights: Vec<f32> = parts.iter().map(|(weight, _)| *weight).collect();
             faults.broken.push(format!("`{name}`: mixture weights {weights:?}, expected ≥ 0 with a sum ≤ 1"));
         }
-        parts.iter().for_each(|(_, part)| self::model(name, part, faults));
-    }
-}
-
-/// Where a parameter must lie.
-#[derive(Clone, Copy)]
-enum Bounds {
-    Share,
-    Positive,
-    NotNegative,
-}
-
-/// Constant factors of a model, without those of a mixture's parts.
-fn parameters(model: &Model) -> Vec<(&'static str, f32, Bounds)> {
-    use Bounds::{NotNegative, Positive, Share};
-    let of = |what: &'static str, values: &[f32], bounds: Bounds| {
-        values.iter().map(|x| (what, *x, bounds)).collect::<Vec<_>>()
-    };
-    let rough = |r: &Roughness| match r {
-        Roughness::Perceptual(p) => of("roughness", &[p.factor], Share),
-        Roughness::Glossiness(p) => of("glossiness", &[p.factor], Share),
-        Roughness::Alpha(a) => of("roughness", a, Share),
-        Roughness::Stretched { roughness, strength } => {
-            [of("roughness", &[roughness.factor], Share), of("anisotropy", &[strength.factor], Share)].concat()
-        }
-    };
-    match model {
-        Model::Absorb | Model::Mix(_) => Vec::new(),
-        Model::Diffuse { reflectance } | Model::Mirror { reflectance } => of("reflectance", &reflectance.factor, Share),
-        Model::RoughDiffuse { reflectance, roughness } => {
-            [of("reflectance", &reflectance.factor, Share), of("roughness", &[roughness.factor], Share)].concat()
-        }
-        Model::Phong { reflectance, exponent } => {
-            [of("reflectance", &reflectance.factor, Share), of("exponent", &[*exponent], NotNegative)].concat()
-        }
-        Model::SpecularGlossiness(m) => [
-            of("diffuse", &m.diffuse.factor, Share),
-            of("specular", &m.specular.factor, Share),
-            of("glossiness", &[m.glossiness.factor], Share),
-        ]
-        .concat(),
-        Model::Dielectric { ior, roughness, tint } => {
-            [of("index of refraction", &[*ior], Positive), rough(roughness), of("tint", &tint.factor, Share)].concat()
-        }
-        Model::Conductor { fresnel, roughness } | Model::CookTorrance { fresnel, roughness } => match fresnel {
-            Fresnel::Schlick { f0 } => [rough(roughness), of("reflectance", &f0.factor, Share)].concat(),
-            Fresnel::Complex { eta, k } => [rough(roughness), of("η", eta, Positive), of("κ", k, NotNegative)].concat(),
-        },
-        Model::MetallicRoughness(m) => {
-            let transmission = m.transmission.as_ref().map_or(0.0, |t| t.factor.factor);
-            let shares = [m.metallic.factor, m.roughness.factor, m.specular.factor, transmission];
-            let names = ["metalness", "roughness", "specular", "transmission"];
-            let mut all = of("base colour", &m.base_color.factor, Share);
-            if let Some(through) = &m.diffuse_transmission {
-                all.extend(of("diffuse transmission", &[through.factor.factor], Share));
-                all.extend(of("diffuse transmission colour", &through.color.factor, Share));
-            }
-            all.extend(names.into_iter().zip(shares).map(|(what, x)| (what, x, Share)));
-            all.push(("index of refraction", m.ior, NotNegative));
-            if let Some(a) = &m.layers.anisotropy {
-                all.push(("anisotropy", a.strength.factor, Share));
-            }
-            if let Some(sheen) = &m.layers.sheen {
-                all.extend(of("sheen", &sheen.color.factor, Share));
-                all.push(("roughness of the sheen", sheen.roughness.factor, Share));
-            }
-            if let Some(coat) = &m.layers.clearcoat {
-                all.push(("clear coat", coat.factor.factor, Share));
-                all.push(("roughness of the coat", coat.roughness.factor, Share));
-            }
-            if let Some(film) = &m.iridescence {
-                all.push(("iridescence", film.factor.factor, Share));
-                all.push(("index of the film", film.ior, Positive));
-                all.extend(film.thickness.map(|x| ("thickness of the film", x, NotNegative)));
-            }
-            all
-        }
+        parts.iter().for_each(|(_, part)| mixtures(name, part, faults));
     }
 }
 

@@ -7,7 +7,6 @@
 
 use super::surfaces::corners;
 use super::topology::{Edges, signed_volume, winding};
-use super::worn::refracts;
 use super::{Subject, count, unique};
 use crate::desc::{self, Model, Object, Shape};
 use crate::math::{Frame, Ray, Transform, offset_origin};
@@ -106,7 +105,7 @@ fn undeclared(subject: &Subject, trial: &Trial, found: &mut Findings) {
         let shapes: Vec<usize> = group.iter().map(|i| scene.objects[*i].shape).collect();
         let name = &scene.objects[group[0]].name;
         let objects = || group.iter().map(|i| &scene.objects[*i]);
-        let bent = objects().find(|o| scene.materials.get(o.material).is_some_and(|m| refracts(&m.model)));
+        let bent = objects().find(|o| scene.materials.get(o.material).is_some_and(|m| m.model.refracts()));
         let bent = bent.map(|o| format!("`{}` on `{name}`", scene.materials[o.material].name));
         if let Some((_, is_open)) = known.iter().find(|(other, _)| *other == shapes) {
             refracting.extend(bent.filter(|_| *is_open));

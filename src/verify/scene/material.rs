@@ -6,7 +6,7 @@
 
 use super::places::{Place, places};
 use super::white::lossless;
-use super::worn::{Worn, parameters, refracts};
+use super::worn::{Worn, parameters};
 use super::{Subject, count, unique};
 use crate::desc;
 use crate::material::Material;
@@ -138,7 +138,7 @@ impl Exam<'_> {
         let mut all = places(desc, written, self.index);
         let left = all.len().saturating_sub(self.most);
         all.truncate(self.most);
-        let two_sided = refracts(&written.model);
+        let two_sided = written.model.refracts();
         let claims = Claims { two_sided, ..CLAIMS };
         let (mut albedos, mut losses) = (Vec::new(), Vec::new());
         let mut lines = Vec::new();

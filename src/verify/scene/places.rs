@@ -1,8 +1,7 @@
 //! Places on a material that show its extremes.
 
-use crate::desc::{
-    ColorParam, Fresnel, Material, Model, Pixels, Roughness, ScalarParam, Scene, Shape, Texture, TextureRef,
-};
+use crate::desc::parameter::Value;
+use crate::desc::{Material, Pixels, ScalarParam, Scene, Shape, Texture, TextureRef};
 use glam::{Vec2, Vec4};
 
 /// Where on a surface a material is looked at.
@@ -31,8 +30,7 @@ const MOST_PIXELS: usize = 1 << 22;
 /// value, and those of the least and the greatest; for vertex colours, those of the meshes that wear it. All other
 /// textures are read at the same coordinates.
 pub(super) fn places(scene: &Scene, material: &Material, index: usize) -> Vec<Place> {
-    let (mut readings, mut vertex_color) = (Vec::new(), false);
-    model(&material.model, &mut readings, &mut vertex_color);
+    let (readings, vertex_color) = readings(material);
     let mut places: Vec<Place> = Vec::new();
     let found: Vec<_> = readings.iter().filter_map(|r| Some((r.what, extremes(scene, r)?))).collect();
     for (which, word) in ["mean", "greatest", "least"].into_iter().enumerate() {
@@ -52,70 +50,24 @@ pub(super) fn places(scene: &Scene, material: &Material, index: usize) -> Vec<Pl
     places
 }
 
-fn model(m: &Model, readings: &mut Vec<Reading>, vertex_color: &mut bool) {
-    let mut color = |what: &'static str, p: &ColorParam| {
-        *vertex_color |= p.vertex_color;
-        readings.extend(p.texture.map(|texture| Reading { what, texture, channel: None }));
-    };
-    let scalar = |what: &'static str, p: &ScalarParam| {
-        p.texture.map(|(texture, channel)| Reading { what, texture, channel: Some(channel) })
-    };
-    let rough = |r: &Roughness| match r {
-        Roughness::Perceptual(p) => scalar("roughness", p),
-        Roughness::Stretched { roughness, .. } => scalar("roughness", roughness),
-        Roughness::Glossiness(p) => scalar("glossiness", p),
-        Roughness::Alpha(_) => None,
-    };
-    match m {
-        Model::Absorb => {}
-        Model::Diffuse { reflectance } | Model::Mirror { reflectance } | Model::Phong { reflectance, .. } => {
-            color("reflectance", reflectance);
-        }
-        Model::RoughDiffuse { reflectance, roughness } => {
-            color("reflectance", reflectance);
-            readings.extend(scalar("roughness", roughness));
-        }
-        Model::SpecularGlossiness(m) => {
-            color("diffuse", &m.diffuse);
-            color("specular", &m.specular);
-            readings.extend(scalar("glossiness", &m.glossiness));
-        }
-        Model::Dielectric { roughness, tint, .. } => {
-            color("tint", tint);
-            readings.extend(rough(roughness));
-        }
-        Model::Conductor { fresnel, roughness } | Model::CookTorrance { fresnel, roughness } => {
-            if let Fresnel::Schlick { f0 } = fresnel {
-                color("reflectance", f0);
+/// What the scattering of a material reads from textures, colours first, and whether vertex colours vary it.
+fn readings(material: &Material) -> (Vec<Reading>, bool) {
+    let (mut colors, mut numbers, mut vertex_color) = (Vec::new(), Vec::new(), false);
+    material.model.clone().visit(&mut |parameter| {
+        let what = parameter.name;
+        match parameter.value {
+            Value::Color(color) => {
+                vertex_color |= color.vertex_color;
+                colors.extend(color.texture.map(|texture| Reading { what, texture, channel: None }));
             }
-            readings.extend(rough(roughness));
+            Value::Scalar(ScalarParam { texture, .. }) | Value::Between(texture) => {
+                numbers.extend(texture.map(|(texture, c)| Reading { what, texture, channel: Some(c) }));
+            }
+            Value::Rgb(_) | Value::Number(_) | Value::Directions(_) | Value::Normals(_) => {}
         }
-        Model::Mix(parts) => parts.iter().for_each(|(_, part)| model(part, readings, vertex_color)),
-        Model::MetallicRoughness(m) => {
-            color("base colour", &m.base_color);
-            color("specular colour", &m.specular_color);
-            if let Some(sheen) = &m.layers.sheen {
-                color("sheen", &sheen.color);
-            }
-            if let Some(through) = &m.diffuse_transmission {
-                color("diffuse transmission colour", &through.color);
-            }
-            readings.extend(scalar("roughness", &m.roughness));
-            readings.extend(scalar("metalness", &m.metallic));
-            readings.extend(scalar("specular", &m.specular));
-            readings.extend(m.layers.anisotropy.and_then(|a| scalar("anisotropy", &a.strength)));
-            readings.extend(m.layers.sheen.and_then(|s| scalar("roughness of the sheen", &s.roughness)));
-            readings.extend(m.layers.clearcoat.and_then(|c| scalar("coat", &c.factor)));
-            readings.extend(m.layers.clearcoat.and_then(|c| scalar("roughness of the coat", &c.roughness)));
-            readings.extend(m.diffuse_transmission.as_ref().and_then(|t| scalar("diffuse transmission", &t.factor)));
-            readings.extend(m.transmission.as_ref().and_then(|t| scalar("transmission", &t.factor)));
-            if let Some(film) = &m.iridescence {
-                readings.extend(scalar("iridescence", &film.factor));
-                let thickness = ScalarParam { factor: 1.0, texture: film.thickness_texture };
-                readings.extend(scalar("thickness of the film", &thickness));
-            }
-        }
-    }
+    });
+    colors.extend(numbers);
+    (colors, vertex_color)
 }
 
 /// Texture coordinates where a reading is about its mean, the greatest and the least; `None` where no coordinates lead
@@ -183,7 +135,7 @@ fn colors(scene: &Scene, material: usize) -> Vec<Place> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::desc::{Image, Wrap};
+    use crate::desc::{ColorParam, Fresnel, Image, Model, Roughness, Wrap};
     use crate::texture::Textures;
     use glam::Affine2;
     use std::sync::Arc;

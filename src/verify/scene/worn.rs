@@ -2,7 +2,8 @@
 
 use super::places::Place;
 use crate::bsdf::{Bsdf, MIN_ALPHA};
-use crate::desc::{self, Model, Roughness};
+use crate::desc::parameter::{Parameter, Role, Value};
+use crate::desc::{self, Model};
 use crate::material::Material;
 use crate::material::param::{self, Point};
 use crate::shape::Surface;
@@ -51,76 +52,39 @@ impl Scattering for Worn<'_> {
     }
 }
 
-/// Parameters at a place in words: `roughness 0.80, metal 1.00`; empty for models without.
+/// Numbers of a material at a place in words: widths, and what is not as by default: `metalness 1.00, roughness 0.80`;
+/// empty for models without.
 pub(super) fn parameters(material: &desc::Material, textures: &Textures, place: &Place) -> String {
-    let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
-    let rough = |r: &Roughness| match r {
-        Roughness::Perceptual(p) => format!("roughness {:.2}", param::scalar(p, at)),
-        Roughness::Glossiness(p) => format!("glossiness {:.2}", param::scalar(p, at)),
-        Roughness::Alpha([a, b]) if a == b => format!("α {a}"),
-        Roughness::Alpha([a, b]) => format!("α {a} × {b}"),
-        Roughness::Stretched { roughness, strength } => {
-            format!("roughness {:.2}, anisotropy {:.2}", param::scalar(roughness, at), param::scalar(strength, at))
+    let mut words = Vec::new();
+    numbers(&material.model, textures, place, &mut |parameter, x| {
+        if matches!(parameter.role, Role::Width(_)) || x != parameter.default {
+            words.push(format!("{} {x:.2}", parameter.name));
         }
-    };
-    fn of(model: &Model, rough: &dyn Fn(&Roughness) -> String, at: Point) -> String {
-        match model {
-            Model::Conductor { roughness, .. }
-            | Model::CookTorrance { roughness, .. }
-            | Model::Dielectric { roughness, .. } => rough(roughness),
-            Model::RoughDiffuse { roughness, .. } => rough(&Roughness::Perceptual(*roughness)),
-            Model::SpecularGlossiness(m) => rough(&Roughness::Glossiness(m.glossiness)),
-            Model::Phong { exponent, .. } => format!("exponent {exponent}"),
-            Model::MetallicRoughness(m) => {
-                let r = rough(&Roughness::Perceptual(m.roughness));
-                format!("{r}, metal {:.2}", param::scalar(&m.metallic, at))
-            }
-            Model::Mix(parts) => {
-                let all = parts.iter().map(|(_, part)| of(part, rough, at)).filter(|text| !text.is_empty());
-                all.collect::<Vec<_>>().join(" and ")
-            }
-            Model::Absorb | Model::Diffuse { .. } | Model::Mirror { .. } => String::new(),
-        }
-    }
-    of(&material.model, &rough, at)
+    });
+    words.join(", ")
 }
 
 /// The least α of a model's rough lobes at a place; smooth ones do not count: they are drawn for themselves.
 pub(super) fn least_alpha(model: &Model, textures: &Textures, place: &Place) -> Option<f64> {
-    let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
-    let rough = |r: &Roughness| {
-        let alpha = match r {
-            Roughness::Perceptual(p) => param::scalar(p, at).powi(2),
-            Roughness::Glossiness(p) => (1.0 - param::scalar(p, at)).powi(2),
-            Roughness::Alpha([a, b]) => a.min(*b),
-            Roughness::Stretched { roughness, .. } => param::scalar(roughness, at).powi(2),
-        };
-        (alpha >= MIN_ALPHA).then_some(f64::from(alpha))
-    };
-    match model {
-        Model::Conductor { roughness, .. }
-        | Model::CookTorrance { roughness, .. }
-        | Model::Dielectric { roughness, .. } => rough(roughness),
-        Model::SpecularGlossiness(m) => rough(&Roughness::Glossiness(m.glossiness)),
-        // As wide as a microsurface of α² = 2/(n + 2).
-        Model::Phong { exponent, .. } => Some((2.0 / (f64::from(*exponent) + 2.0)).sqrt()),
-        Model::MetallicRoughness(m) => {
-            let coat = m.layers.clearcoat.and_then(|coat| rough(&Roughness::Perceptual(coat.roughness)));
-            rough(&Roughness::Perceptual(m.roughness)).into_iter().chain(coat).min_by(f64::total_cmp)
+    let mut least: Option<f32> = None;
+    numbers(model, textures, place, &mut |parameter, x| {
+        if let Role::Width(width) = parameter.role {
+            let alpha = Some(width.alpha(x)).filter(|alpha| *alpha >= MIN_ALPHA);
+            least = least.into_iter().chain(alpha).min_by(f32::total_cmp);
         }
-        Model::Mix(parts) => {
-            parts.iter().filter_map(|(_, part)| least_alpha(part, textures, place)).min_by(f64::total_cmp)
-        }
-        Model::Absorb | Model::Diffuse { .. } | Model::RoughDiffuse { .. } | Model::Mirror { .. } => None,
-    }
+    });
+    least.map(f64::from)
 }
 
-/// Light that enters is bent, so that the two sides differ and there must be a way out.
-pub(super) fn refracts(model: &Model) -> bool {
-    match model {
-        Model::Dielectric { .. } => true,
-        Model::MetallicRoughness(m) => m.transmission.as_ref().is_some_and(|t| !t.thin && t.factor.factor > 0.0),
-        Model::Mix(parts) => parts.iter().any(|(weight, part)| *weight > 0.0 && refracts(part)),
-        _ => false,
-    }
+/// Visits the parameters of a model that are one number, with their values at a place.
+fn numbers(model: &Model, textures: &Textures, place: &Place, visitor: &mut dyn FnMut(&Parameter, f32)) {
+    let at = Point { uv: &place.uv, color: place.color, textures, eta: None };
+    model.clone().visit(&mut |parameter| {
+        let x = match &parameter.value {
+            Value::Scalar(scalar) => param::scalar(scalar, at),
+            Value::Number(x) => **x,
+            _ => return,
+        };
+        visitor(&parameter, x);
+    });
 }

@@ -93,10 +93,6 @@ impl Writer<'_, '_> {
     pub(super) fn model(&mut self, model: &Model) -> Result<Element, ExportError> {
         Ok(match model {
             Model::Diffuse { reflectance } => two_sided(diffuse(&self.share(reflectance)?)),
-            Model::RoughDiffuse { reflectance, .. } => {
-                self.note("Mitsuba has no rough diffuse surface; this one is smooth (Lambert)");
-                two_sided(diffuse(&self.share(reflectance)?))
-            }
             Model::Phong { reflectance, exponent } => {
                 self.note("Mitsuba has no Phong lobe; this is Beckmann's of the width √(2/(n + 2))");
                 let alpha = (2.0 / (exponent.max(0.0) + 2.0)).sqrt();
@@ -117,6 +113,11 @@ impl Writer<'_, '_> {
             Model::MetallicRoughness(m) => layered::metallic_roughness(self, m)?,
             Model::SpecularGlossiness(m) => layered::specular_glossiness(self, m)?,
             Model::Absorb => diffuse(&Color::Constant([0.0; 3])),
+            other => {
+                let (plainer, lost) = other.plainer();
+                self.note(&format!("Mitsuba has {lost}"));
+                self.model(&plainer)?
+            }
         })
     }
 

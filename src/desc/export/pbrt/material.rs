@@ -110,10 +110,6 @@ impl Writer<'_, '_> {
     fn model(&mut self, model: &Model) -> Result<String, ExportError> {
         match model {
             Model::Diffuse { reflectance } => self.diffuse(reflectance),
-            Model::RoughDiffuse { reflectance, .. } => {
-                self.note("pbrt has no rough diffuse surface; this one is smooth (Lambert)");
-                self.diffuse(reflectance)
-            }
             Model::Phong { reflectance, exponent } => {
                 self.note("pbrt has no Phong lobe; this is a metal's of the width √(2/(n + 2))");
                 let alpha = (2.0 / (exponent.max(0.0) + 2.0)).sqrt();
@@ -139,6 +135,11 @@ impl Writer<'_, '_> {
                 self.coated(&m.diffuse, &Roughness::Glossiness(m.glossiness), f0)
             }
             Model::Absorb => self.diffuse(&ColorParam::constant([0.0; 3])),
+            other => {
+                let (plainer, lost) = other.plainer();
+                self.note(&format!("pbrt has {lost}"));
+                self.model(&plainer)
+            }
         }
     }
 
