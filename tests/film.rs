@@ -108,6 +108,42 @@ fn surface_layers_are_means_of_the_right_samples() {
 }
 
 #[test]
+fn what_is_no_number_counts_as_nothing_and_is_named() {
+    let sound = PixelSample {
+        radiance: Spectrum::splat(2.0),
+        alpha: 1.0,
+        albedo: Spectrum::splat(0.5),
+        normal: Vec3::new(0.0, -1.0, 0.0),
+        depth: 3.0,
+    };
+    for x in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let all = [
+            ("beauty", PixelSample { radiance: Spectrum::from_rgb([1.0, x, 1.0]), ..sound }),
+            ("alpha", PixelSample { alpha: x, ..sound }),
+            ("albedo", PixelSample { albedo: Spectrum::from_rgb([x, 0.5, 0.5]), ..sound }),
+            ("normal", PixelSample { normal: Vec3::new(0.0, 0.0, x), ..sound }),
+            ("depth", PixelSample { depth: x, ..sound }),
+        ];
+        for (name, bad) in all {
+            let (mut film, mut acc) = (Film::new([1, 1], [0, 0, 1, 1], false), Accumulator::default());
+            assert_eq!(acc.add(&sound), None);
+            let invalid = acc.add(&bad).unwrap();
+            assert_eq!(invalid.layer, name);
+            assert!(invalid.value.iter().any(|v| v.to_bits() == x.to_bits()), "{invalid:?}");
+            film.add_replicate(0, 0, &acc);
+            let halved = |layer| if name == layer { 0.5 } else { 1.0 };
+            assert_eq!(film.mean(0, 0), [2.0 * halved("beauty"); 3]);
+            assert_eq!((film.alpha(0, 0), film.albedo(0, 0)), (halved("alpha"), [0.5 * halved("albedo"); 3]));
+            assert_eq!((film.depth(0, 0), film.normal(0, 0)), (3.0 * halved("depth"), [0.0, -halved("normal"), 0.0]));
+        }
+    }
+    // Radiance and distance are not negative; normals may be.
+    let mut acc = Accumulator::default();
+    assert!(acc.add(&PixelSample { radiance: Spectrum::from_rgb([0.0, -1e-9, 0.0]), ..sound }).is_some());
+    assert!(acc.add(&PixelSample { depth: -1.0, ..sound }).is_some());
+}
+
+#[test]
 fn merging_is_addition() {
     // Two shards of one image.
     let all = [0, 0, 6, 5];

@@ -10,7 +10,7 @@ use radianza::desc::{self, Filter, Integrator, SamplerKind, Strategy, Tonemap};
 use radianza::film::exr::write_exr;
 use radianza::film::file::check_writable;
 use radianza::film::png::write_png;
-use radianza::film::{Header, LayerKind, Origin, develop};
+use radianza::film::{Header, Invalid, LayerKind, Origin, develop};
 use radianza::render::{self, Output, Settings};
 use radianza::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -196,9 +196,13 @@ fn name_bad_samples(output: &Output) {
     if output.bad_count == 0 {
         return;
     }
-    eprintln!("note: {} samples are not finite or negative and count as 0; look at them with", output.bad_count);
+    eprintln!(
+        "note: {} samples hold what is not finite or negative, which counts as 0; look at them with",
+        output.bad_count
+    );
     for bad in output.bad.iter().take(LISTED) {
-        eprintln!("note:     --replay {},{},{}    {:?}", bad.pixel[0], bad.pixel[1], bad.index, bad.rgb);
+        let ([x, y], Invalid { layer, value }) = (bad.pixel, bad.invalid);
+        eprintln!("note:     --replay {x},{y},{}    {layer} {value:?}", bad.index);
     }
 }
 

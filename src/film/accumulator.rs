@@ -31,17 +31,36 @@ pub struct Accumulator {
     pub(super) transport: [DVec3; 7],
 }
 
+/// A value of a sample that is not finite, or negative where nothing is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Invalid {
+    /// The layer of the film that it was meant for.
+    pub layer: &'static str,
+    /// What came.
+    pub value: [f32; 3],
+}
+
 impl Accumulator {
-    /// Adds one sample. Its numbers must be finite: whoever takes samples counts the others and adds zeros.
+    /// Adds one sample. What is no number, or is negative radiance or distance, counts as 0, so that one sample cannot take
+    /// the pixel with it; the first such value is returned.
     #[inline]
-    pub fn add(&mut self, s: &PixelSample) {
+    pub fn add(&mut self, s: &PixelSample) -> Option<Invalid> {
+        let mut invalid = None;
+        let mut checked = |layer, value: [f32; 3], signed: bool| {
+            if value.iter().all(|x| x.is_finite() && (signed || *x >= 0.0)) {
+                return value.map(f64::from);
+            }
+            invalid = invalid.or(Some(Invalid { layer, value }));
+            [0.0; 3]
+        };
         self.n += 1;
-        self.hits += u32::from(s.depth > 0.0);
-        self.radiance += DVec3::from(s.radiance.to_rgb().map(f64::from));
-        self.alpha += f64::from(s.alpha);
-        self.albedo += DVec3::from(s.albedo.to_rgb().map(f64::from));
-        self.normal += s.normal.as_dvec3();
-        self.depth += f64::from(s.depth);
+        self.radiance += DVec3::from(checked("beauty", s.radiance.to_rgb(), false));
+        self.alpha += checked("alpha", [s.alpha; 3], false)[0];
+        self.albedo += DVec3::from(checked("albedo", s.albedo.to_rgb(), false));
+        self.normal += DVec3::from(checked("normal", s.normal.to_array(), true));
+        self.depth += checked("depth", [s.depth; 3], false)[0];
+        self.hits += u32::from(s.alpha != 0.0);
+        invalid
     }
 
     /// Adds the radiance of one sample split by [`CLASSES`].

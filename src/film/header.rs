@@ -48,7 +48,7 @@ pub struct Header {
     pub metadata: Vec<serde_json::Value>,
     /// Why the image is not an unbiased estimate of the whole equation; empty where it is.
     pub biased: Vec<String>,
-    /// Samples that were not finite or negative and count as 0.
+    /// Samples of which some layer's value was not finite or negative and counts as 0.
     pub non_finite: u64,
 }
 

@@ -26,7 +26,7 @@ pub mod png;
 mod sums;
 mod tonemap;
 
-pub use accumulator::{Accumulator, CLASSES};
+pub use accumulator::{Accumulator, CLASSES, Invalid};
 pub use compare::{CompareError, Comparison, Evidence, compare, difference_colors};
 pub use develop::{LayerKind, develop};
 pub use filter::{filter_density, filter_offset, filter_radius};

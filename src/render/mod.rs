@@ -5,12 +5,11 @@ mod pass;
 
 use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};
-use crate::film::{Accumulator, Film, PixelSample, filter_offset};
+use crate::film::{Accumulator, Film, Invalid, PixelSample, filter_offset};
 use crate::integrator::replay::Replay;
 use crate::integrator::{self, ByClass, Method, Observer, RayCount};
 use crate::sampler::{self, Sampler};
 use crate::scene::Scene;
-use crate::spectrum::Spectrum;
 use glam::Vec2;
 use order::Area;
 use pass::Passes;
@@ -68,15 +67,15 @@ pub struct Progress {
     pub relative_error: f64,
 }
 
-/// A sample that was not a finite, non-negative number; it counts as 0 in the film.
+/// A sample of which a value was not finite, or negative where nothing is; that value counts as 0 in the film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BadSample {
     /// Column and row.
     pub pixel: [u32; 2],
     /// Sample index, for `--replay`.
     pub index: u64,
-    /// What came.
-    pub rgb: [f32; 3],
+    /// The first layer that cannot hold what came, and that.
+    pub invalid: Invalid,
 }
 
 /// A finished or interrupted render.
@@ -84,7 +83,7 @@ pub struct BadSample {
 pub struct Output {
     /// Sums of all pixels.
     pub film: Film,
-    /// The first samples that were no valid radiance.
+    /// The first samples of which a value was invalid.
     pub bad: Vec<BadSample>,
     /// How many there were.
     pub bad_count: u64,
@@ -276,16 +275,14 @@ impl<'a> Tracer<'a> {
             let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
                 let mut watch = O::default();
-                let mut sample = self.sample([x, y], index, &mut watch);
+                let sample = self.sample([x, y], index, &mut watch);
                 tile.rays += rays(&watch);
-                // A sample that is no radiance is reported and counts as none.
-                let rgb = sample.radiance.to_rgb();
-                if !sample.radiance.is_finite() || rgb.iter().any(|&x| x < 0.0) {
-                    tile.bad.push(BadSample { pixel: [x, y], index, rgb });
-                    sample.radiance = Spectrum::ZERO;
-                    watch = O::default();
+                if let Some(invalid) = sums.add(&sample) {
+                    tile.bad.push(BadSample { pixel: [x, y], index, invalid });
+                    if invalid.layer == "beauty" {
+                        watch = O::default();
+                    }
                 }
-                sums.add(&sample);
                 keep(&mut sums, &watch);
             }
             tile.samples += u64::from(self.settings.replicate);

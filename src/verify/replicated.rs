@@ -81,7 +81,7 @@ pub struct Renders {
     pub beauty: Replicated,
     /// Radiance by transport class, in the order of [`CLASSES`]; nothing where they were not asked for.
     pub layers: Vec<Replicated>,
-    /// The first sample that was no radiance of each replicate that has any, with the replicate's seed.
+    /// The first invalid sample of each replicate that has any, with the replicate's seed.
     pub bad: Vec<(u64, BadSample)>,
     /// How many such samples there were.
     pub bad_count: u64,
@@ -91,7 +91,7 @@ pub struct Renders {
     pub samples: f64,
 }
 
-/// Counts samples that are no radiance, over any number of renders.
+/// Counts invalid samples, over any number of renders.
 #[derive(Clone, Debug, Default)]
 pub struct Census {
     count: u64,
@@ -104,8 +104,8 @@ impl Census {
         self.count += renders.bad_count;
         if let Some((seed, bad)) = renders.bad.first() {
             self.first.push(format!(
-                "{name}: {} samples are not finite or negative; the first is sample {} of pixel {:?} with seed {seed}: {:?}.",
-                renders.bad_count, bad.index, bad.pixel, bad.rgb
+                "{name}: {} samples are not finite or negative; the first is sample {} of pixel {:?} with seed {seed}: {} {:?}.",
+                renders.bad_count, bad.index, bad.pixel, bad.invalid.layer, bad.invalid.value
             ));
         }
     }

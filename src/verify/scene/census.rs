@@ -1,4 +1,4 @@
-//! Samples that are no radiance: NaN, infinite or negative.
+//! Samples that are NaN, infinite or negative: of radiance, or of what the film keeps of the first surface.
 
 use super::Subject;
 use super::view::{View, camera_name};
@@ -50,7 +50,7 @@ fn count(subject: &Subject, camera: usize, trial: &Trial, found: &mut Findings) 
     found.checks.holds("every sample is finite and not negative", output.bad_count == 0);
     found.words.push(match output.bad_count {
         0 => format!("{samples} samples: none is NaN, infinite or negative"),
-        n => format!("{n} of {samples} samples are no radiance and count as 0; the first are replayed by"),
+        n => format!("{n} of {samples} samples hold what is no number and counts as 0; the first are replayed by"),
     });
     found.words.extend(replays(subject, &settings, &output));
 }
@@ -66,7 +66,7 @@ fn replays(subject: &Subject, settings: &Settings, output: &Output) -> Vec<Strin
     );
     let one = |bad: &crate::render::BadSample| {
         let [x, y] = bad.pixel;
-        format!("`{common} --replay {x},{y},{}`: {:?}", bad.index, bad.rgb)
+        format!("`{common} --replay {x},{y},{}`: {} {:?}", bad.index, bad.invalid.layer, bad.invalid.value)
     };
     output.bad.iter().take(NAMED).map(one).collect()
 }
