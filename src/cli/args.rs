@@ -1,6 +1,8 @@
 //! Values on the command line.
 
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use radianza::bvh::Quality;
+use radianza::film::{GROUPS, Group};
 use std::str::FromStr;
 use std::time::Duration;
 
@@ -74,6 +76,13 @@ impl FromStr for Replay {
 fn numbers<T: FromStr, const N: usize>(text: &str) -> Option<[T; N]> {
     let numbers: Option<Vec<T>> = text.split(',').map(|s| s.trim().parse().ok()).collect();
     numbers?.try_into().ok()
+}
+
+/// A group of layers by its name, as the film lists them.
+pub(crate) fn layers() -> impl TypedValueParser<Value = &'static Group> {
+    let names = GROUPS.iter().map(|group| PossibleValue::new(group.name).help(group.about));
+    let found = |name: String| Group::named(&name).ok_or("no such layer");
+    PossibleValuesParser::new(names).try_map(found)
 }
 
 /// A quality of hierarchies by its name.

@@ -10,7 +10,7 @@ use radianza::desc::{self, Filter, Integrator, SamplerKind, Strategy, Tonemap};
 use radianza::film::exr::write_exr;
 use radianza::film::file::check_writable;
 use radianza::film::png::write_png;
-use radianza::film::{Header, Invalid, LayerKind, Origin, develop};
+use radianza::film::{Group, Header, Invalid, Origin, develop};
 use radianza::render::{self, Output, Settings};
 use radianza::scene::Scene;
 use std::path::{Path, PathBuf};
@@ -73,8 +73,8 @@ pub(crate) struct Arguments {
     #[arg(long, value_name = "FILE")]
     env: Option<PathBuf>,
     /// Layers of the EXR [all but transport]
-    #[arg(long, value_name = "LIST", value_delimiter = ',')]
-    pub(super) layers: Option<Vec<LayerKind>>,
+    #[arg(long, value_name = "LIST", value_delimiter = ',', value_parser = args::layers())]
+    pub(super) layers: Option<Vec<&'static Group>>,
     /// Exposure of the PNG in stops [0]
     #[arg(long, value_name = "STOPS", value_parser = args::finite, allow_negative_numbers = true)]
     pub(super) exposure: Option<f64>,
@@ -162,8 +162,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     }
     .to_json();
     write_exr(&exr, &image).map_err(|e| Failure::Output(exr.clone(), e))?;
-    let beauty = develop(&output.film, &[LayerKind::Beauty]);
-    write_png(&png, &beauty, &display).map_err(|e| Failure::Output(png.clone(), e))?;
+    write_png(&png, &develop(&output.film, &[Group::BEAUTY]), &display).map_err(|e| Failure::Output(png.clone(), e))?;
     if !arguments.quiet {
         summary(&settings, &output, &[exr, png]);
     }

@@ -3,7 +3,7 @@
 use super::Failure;
 use super::render::Arguments;
 use radianza::desc::{self, Camera, Integrator, Projection};
-use radianza::film::{Display, LayerKind};
+use radianza::film::{Display, GROUPS, Group, TRANSPORT};
 use radianza::render::Settings;
 
 /// Samples per pixel where nobody says anything.
@@ -23,7 +23,7 @@ pub(super) struct Choices {
     /// For the renderer.
     pub(super) settings: Settings,
     /// For the EXR.
-    pub(super) layers: Vec<LayerKind>,
+    pub(super) layers: Vec<&'static Group>,
     /// For the PNG.
     pub(super) display: Display,
     /// Why the image is no unbiased estimate of the whole equation.
@@ -49,7 +49,7 @@ pub(super) fn choose(arguments: &Arguments, scene: &desc::Scene) -> Result<Choic
         notes.push(format!("{asked} samples per pixel become {spp}: whole replicates of {replicate}"));
     }
 
-    let layers = arguments.layers.clone().unwrap_or_else(|| LayerKind::DEFAULT.to_vec());
+    let layers = arguments.layers.clone().unwrap_or_else(|| GROUPS.iter().filter(|group| group.always).collect());
     let integrator = arguments.integrator.or(file.integrator).unwrap_or_default();
     let max_depth = arguments.max_depth.or(file.max_depth);
     let settings = Settings {
@@ -65,7 +65,7 @@ pub(super) fn choose(arguments: &Arguments, scene: &desc::Scene) -> Result<Choic
         seed: arguments.seed.or(file.seed).unwrap_or_default(),
         max_depth,
         filter: arguments.filter.or(file.filter).unwrap_or_default(),
-        transport: layers.contains(&LayerKind::Transport),
+        transport: layers.iter().any(|group| group.name == TRANSPORT),
         threads: arguments.threads,
         tile: TILE,
     };

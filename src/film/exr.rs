@@ -3,7 +3,7 @@
 //! in an order that changes from run to run, and equal images shall be equal files.
 
 use super::file::write_atomic;
-use super::{Image, Layer};
+use super::{Channels, Image};
 use exr::meta::attribute::Chromaticities;
 use exr::prelude::{
     AnyChannel, AnyChannels, AttributeValue, Blocks, Compression, Encoding, FlatSamples, ImageAttributes,
@@ -126,7 +126,7 @@ fn collect(source: exr::prelude::FlatImage) -> Result<Image, ReadError> {
         Some(AttributeValue::Text(text)) => text.to_string(),
         _ => String::new(),
     };
-    let mut layers: BTreeMap<String, Layer> = BTreeMap::new();
+    let mut layers: BTreeMap<String, Channels> = BTreeMap::new();
     for (index, part) in source.layer_data.iter().enumerate() {
         if part.absolute_bounds() != bounds {
             return Err(ReadError::Unsupported("parts with different windows".into()));

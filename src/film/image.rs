@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 /// Channels of one layer by name (`R`, `G`, `B`, `A`, `X`, `Y`, `Z`, `N`), each row by row over the image's window.
-pub type Layer = BTreeMap<String, Vec<f32>>;
+pub type Channels = BTreeMap<String, Vec<f32>>;
 
 /// An image as files hold it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -13,7 +13,7 @@ pub struct Image {
     /// Pixels that are held: x0, y0, x1, y1, upper ends excluded.
     pub window: [u32; 4],
     /// Layers by name; the one that is seen first is [`Image::BEAUTY`].
-    pub layers: BTreeMap<String, Layer>,
+    pub layers: BTreeMap<String, Channels>,
     /// What the image says about itself: JSON, or empty.
     pub header: String,
 }
@@ -37,23 +37,18 @@ impl Image {
 
     /// Adds an RGB layer, row by row.
     pub fn insert_rgb(&mut self, layer: &str, pixels: impl IntoIterator<Item = [f32; 3]>) {
-        self.insert(layer, ["R", "G", "B"], pixels);
+        self.insert(layer, &["R", "G", "B"], pixels);
     }
 
-    /// Adds channels to a layer, row by row.
-    pub fn insert<const N: usize>(
-        &mut self,
-        layer: &str,
-        names: [&str; N],
-        pixels: impl IntoIterator<Item = [f32; N]>,
-    ) {
-        let mut channels: [Vec<f32>; N] = std::array::from_fn(|_| Vec::new());
+    /// Adds channels to a layer, at most three, row by row.
+    pub fn insert(&mut self, layer: &str, names: &[&str], pixels: impl IntoIterator<Item = [f32; 3]>) {
+        let mut channels = vec![Vec::new(); names.len().min(3)];
         for pixel in pixels {
             for (channel, x) in channels.iter_mut().zip(pixel) {
                 channel.push(x);
             }
         }
-        let named = names.map(String::from).into_iter().zip(channels);
+        let named = names.iter().map(|name| (*name).to_string()).zip(channels);
         self.layers.entry(layer.into()).or_default().extend(named);
     }
 }

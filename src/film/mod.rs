@@ -2,8 +2,12 @@
 //!
 //! | file | what |
 //! | --- | --- |
-//! | `accumulator.rs` | sums of one pixel over one replicate |
+//! | `layer.rs` | [`GROUPS`]: the list of all layers |
+//! | `layers.rs` | [`Layers`]: the layers of a film, their places, and which values they take |
+//! | `replicate.rs` | [`Replicate`]: sums of the pixels of an area over one replicate |
+//! | `splats.rs`, `exact.rs` | [`Splats`]: what paths bring to other pixels than their own, in exact sums |
 //! | `sums.rs` | [`Film`]: sums of all pixels over all replicates; mean and standard error |
+//! | `state.rs` | a film as bytes |
 //! | `filter.rs` | pixel filters by importance sampling |
 //! | `image.rs` | [`Image`]: named layers of f32 channels |
 //! | `develop.rs` | film → image |
@@ -13,25 +17,34 @@
 //! | `compare.rs` | two images: errors and z |
 //! | `file.rs` | whole files or none |
 
-mod accumulator;
 mod agx;
 mod compare;
 mod develop;
+mod exact;
 pub mod exr;
 pub mod file;
 mod filter;
 mod header;
 mod image;
+mod layer;
+mod layers;
 pub mod png;
+mod replicate;
+mod splats;
+mod state;
 mod sums;
 mod tonemap;
 
-pub use accumulator::{Accumulator, CLASSES, Invalid};
 pub use compare::{CompareError, Comparison, Evidence, compare, difference_colors};
-pub use develop::{LayerKind, develop};
+pub use develop::develop;
 pub use filter::{filter_density, filter_offset, filter_radius};
 pub use header::{Header, Origin};
-pub use image::{Image, Layer};
+pub use image::{Channels, Image};
+pub use layer::{ByClass, CLASSES, GROUPS, Group, Kind, Layer, TRANSPORT};
+pub use layers::{Invalid, Layers};
+pub use replicate::Replicate;
+pub use splats::Splats;
+pub use state::StateError;
 pub use sums::{Film, MergeError};
 pub use tonemap::Display;
 

@@ -5,11 +5,12 @@ mod pass;
 
 use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};
-use crate::film::{Accumulator, Film, Invalid, PixelSample, filter_offset};
+use crate::film::{self, Film, Invalid, Layers, PixelSample, Replicate, filter_offset};
 use crate::integrator::replay::Replay;
 use crate::integrator::{self, ByClass, Method, Observer, RayCount};
 use crate::sampler::{self, Sampler};
 use crate::scene::Scene;
+use crate::spectrum::Spectrum;
 use glam::Vec2;
 use order::Area;
 use pass::Passes;
@@ -152,7 +153,7 @@ pub fn render(
     let pixels = u64::from(x1 - x0) * u64::from(y1 - y0);
     let total = pixels * u64::from(settings.spp);
     let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
-    let film = Film::new(settings.size, settings.crop, settings.transport);
+    let film = Film::new(settings.size, settings.crop, &tracer.layers);
     let passes = Passes::new(film, tiles.len());
 
     // Tile after tile, pass after pass: whoever is free takes the next, and nobody waits for a pass to end.
@@ -201,8 +202,7 @@ pub fn replay(scene: &Scene, settings: &Settings, pixel: [u32; 2], index: u64) -
 
 /// One replicate of the pixels of a tile.
 struct Tile {
-    area: Area,
-    pixels: Vec<Accumulator>,
+    sums: Replicate,
     samples: u64,
     rays: u64,
     bad: Vec<BadSample>,
@@ -218,6 +218,7 @@ struct Tracer<'a> {
     camera: Camera,
     settings: &'a Settings,
     sampler: sampler::Kind,
+    layers: Layers,
 }
 
 impl<'a> Tracer<'a> {
@@ -244,6 +245,7 @@ impl<'a> Tracer<'a> {
             },
             camera,
             settings,
+            layers: Layers::held(settings.transport),
             sampler: match settings.sampler {
                 SamplerKind::Independent => sampler::Kind::Independent,
                 SamplerKind::Sobol => sampler::Kind::Sobol,
@@ -255,38 +257,31 @@ impl<'a> Tracer<'a> {
     /// The replicate that begins at sample `first`, of all pixels of an area.
     fn tile(&self, area: Area, first: u64) -> Tile {
         if self.settings.transport {
-            let split = |sums: &mut Accumulator, (classes, _): &(ByClass, RayCount)| sums.add_transport(&classes.0);
-            self.watched_tile(area, first, |watch| watch.1.0, split)
+            self.watched_tile(area, first, |(classes, rays): &(ByClass, RayCount)| (rays.0, &classes.0))
         } else {
-            self.watched_tile(area, first, |watch: &RayCount| watch.0, |_, _| ())
+            self.watched_tile(area, first, |rays: &RayCount| (rays.0, &[Spectrum::ZERO; 7]))
         }
     }
 
-    /// The same, where the observer of every path has counted `rays`, and tells more to `keep`.
+    /// [`Self::tile`] with an observer of every path, which tells how many rays there were, and the radiance by class.
     fn watched_tile<O: Observer + Default>(
         &self,
         area: Area,
         first: u64,
-        rays: impl Fn(&O) -> u64,
-        keep: impl Fn(&mut Accumulator, &O),
+        seen: impl Fn(&O) -> (u64, &film::ByClass),
     ) -> Tile {
-        let mut tile = Tile { area, pixels: Vec::new(), samples: 0, rays: 0, bad: Vec::new() };
+        let mut tile = Tile { sums: Replicate::new(&self.layers, area), samples: 0, rays: 0, bad: Vec::new() };
         for (x, y) in positions(area) {
-            let mut sums = Accumulator::default();
             for index in first..first + u64::from(self.settings.replicate) {
                 let mut watch = O::default();
                 let sample = self.sample([x, y], index, &mut watch);
-                tile.rays += rays(&watch);
-                if let Some(invalid) = sums.add(&sample) {
+                let (rays, classes) = seen(&watch);
+                tile.rays += rays;
+                if let Some(invalid) = tile.sums.add([x, y], &sample, classes) {
                     tile.bad.push(BadSample { pixel: [x, y], index, invalid });
-                    if invalid.layer == "beauty" {
-                        watch = O::default();
-                    }
                 }
-                keep(&mut sums, &watch);
             }
             tile.samples += u64::from(self.settings.replicate);
-            tile.pixels.push(sums);
         }
         tile
     }

@@ -1,6 +1,6 @@
 //! Passes over the image, one replicate of every pixel each, whose tiles end in any order.
 
-use super::{BadSample, Tile, positions};
+use super::{BadSample, Tile};
 use crate::film::Film;
 use std::sync::{Mutex, PoisonError};
 
@@ -59,9 +59,7 @@ impl Passes {
 
 impl Sums {
     fn put(&mut self, pass: usize, tile: Tile) {
-        for ((x, y), sums) in positions(tile.area).zip(&tile.pixels) {
-            self.film.add_replicate(x, y, sums);
-        }
+        self.film.add(&tile.sums);
         self.bad_count += tile.bad.len() as u64;
         self.bad.extend(tile.bad);
         if self.bad.len() > 4 * LISTED {
@@ -86,20 +84,21 @@ fn first_bad(bad: &mut Vec<BadSample>) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::{Accumulator, PixelSample};
+    use crate::film::{Layers, PixelSample, Replicate};
     use crate::spectrum::Spectrum;
 
     #[test]
     fn tiles_that_end_early_wait_for_those_before() {
         let tile = |radiance: f32, x: u32| {
-            let mut sums = Accumulator::default();
-            sums.add(&PixelSample { radiance: Spectrum::splat(radiance), ..PixelSample::default() });
-            Tile { area: [x, 0, x + 1, 1], pixels: vec![sums], samples: 1, rays: 0, bad: Vec::new() }
+            let mut sums = Replicate::new(&Layers::held(false), [x, 0, x + 1, 1]);
+            let sample = PixelSample { radiance: Spectrum::splat(radiance), ..PixelSample::default() };
+            sums.add([x, 0], &sample, &[Spectrum::ZERO; 7]);
+            Tile { sums, samples: 1, rays: 0, bad: Vec::new() }
         };
         // 1e16 + 1 − 1 is not 1 − 1 + 1e16 in f64, so that the order shows.
         let radiance = |pass: u32, tile: usize| [1e17f32, 1.0, 3.0, 7.0][(pass as usize + tile) % 4];
         let film = |order: &[(u32, usize)]| {
-            let passes = Passes::new(Film::new([2, 1], [0, 0, 2, 1], false), 2);
+            let passes = Passes::new(Film::new([2, 1], [0, 0, 2, 1], &Layers::held(false)), 2);
             let errors: Vec<f64> =
                 order.iter().map(|&(p, t)| passes.add(p, t, tile(radiance(p, t), t as u32))).collect();
             (passes.finish().0, errors)

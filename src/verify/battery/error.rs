@@ -4,7 +4,7 @@
 
 use super::agreement::{scene, small};
 use crate::desc::{Integrator, SamplerKind, Strategy};
-use crate::film::{Accumulator, Film, PixelSample};
+use crate::film::{Film, Layers, PixelSample, Replicate};
 use crate::render::{Error, Output, Settings, render};
 use crate::sampler::{Kind, Sampler, hash};
 use crate::scene::Scene;
@@ -75,20 +75,19 @@ fn film(trial: &Trial, found: &mut Findings) {
 /// A film of uniform numbers. Its replicates come in two films that are added, as those of shards are.
 fn fed(size: [u32; 2], replicates: u32, samples: u32, seed: u64) -> Film {
     let crop = [0, 0, size[0], size[1]];
-    let mut halves = [0, 1].map(|_| Film::new(size, crop, true));
+    let mut halves = [0, 1].map(|_| Film::new(size, crop, &Layers::held(true)));
     for y in 0..size[1] {
         for x in 0..size[0] {
             let mut u = Sampler::new(Kind::Independent, seed, [x, y], 0, 1);
             for k in 0..replicates {
-                let mut acc = Accumulator::default();
+                let mut sums = Replicate::new(halves[0].layers(), [x, y, x + 1, y + 1]);
                 for _ in 0..samples {
                     let radiance = Spectrum::splat(u.next_1d());
-                    acc.add(&PixelSample { radiance, ..PixelSample::default() });
                     let mut classes = [Spectrum::ZERO; 7];
                     classes[0] = radiance * 0.5;
-                    acc.add_transport(&classes);
+                    sums.add([x, y], &PixelSample { radiance, ..PixelSample::default() }, &classes);
                 }
-                halves[(k % 2) as usize].add_replicate(x, y, &acc);
+                halves[(k % 2) as usize].add(&sums);
             }
         }
     }
