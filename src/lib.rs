@@ -44,14 +44,14 @@
 //! | 2 | [`texture`] | constants, images, checkers |
 //! | 2 | [`shape`] | triangles and quadrics: intersect, sample |
 //! | 2 | [`desc`] | what the author wrote, the readers of TOML, glTF, OBJ, PLY, the writers for Mitsuba and pbrt |
-//! | 2 | [`film`] | sums per pixel, errors, EXR and PNG |
+//! | 2 | [`film`] | layers of sums per pixel, errors, splats, EXR and PNG |
 //! | 3 | [`material`] | parameters and textures at a hit → lobes |
 //! | 3 | [`bvh`] | nearest hit? occluded? |
 //! | 3 | [`light`] | area, environment, sun, point, spot, measured, directional; choosing one of thousands |
 //! | 3 | [`camera`] | film point → ray, world point → film point |
 //! | 4 | [`scene`] | desc → what is traced |
 //! | 5 | [`integrator`] | raycast, local, whitted, path |
-//! | 6 | [`render`] | tiles × sample indices → film |
+//! | 6 | [`render`] | rounds of tiles × sample indices → film; what comes next |
 //! | 7 | [`verify`] | the checks of all of it, as a command and as a library |
 
 pub mod bsdf;

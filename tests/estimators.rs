@@ -5,8 +5,9 @@ mod common;
 use common::{SAMPLERS, film, load, repo, settings};
 use radianza::desc::SamplerKind;
 use radianza::film::Film;
-use radianza::render::Settings;
+use radianza::render::{Next, Pixels, Schedule, Settings, render_by};
 use radianza::scene::Scene;
+use std::sync::atomic::AtomicBool;
 
 fn small(path: &str, spp: u32) -> (Scene, Settings) {
     let (_, scene) = load(&repo(path));
@@ -32,6 +33,41 @@ fn threads_and_tiles_change_no_bit() {
             }
         }
     }
+}
+
+#[test]
+fn rounds_that_look_at_the_image_do_not_depend_on_threads() {
+    let (scene, base) = small("scenes/cornell-box.toml", 16);
+    let base = Settings { size: [24, 24], crop: [1, 2, 23, 19], replicate: 2, ..base };
+    // Two rounds of all pixels, then of those with the larger error, until the sum of replicates is reached.
+    let decide = |round: u32, film: &Film| {
+        let pixels: Vec<[u32; 2]> = film.pixels().collect();
+        let error = |&[x, y]: &[u32; 2]| film.stderr(x, y).map_or(f64::INFINITY, |e| e[1]);
+        let mean = pixels.iter().map(error).sum::<f64>() / pixels.len() as f64;
+        match round {
+            0 | 1 => Next::Sample(Pixels::All),
+            2..8 => Next::Sample(Pixels::These(pixels.iter().map(|pixel| error(pixel) >= mean).collect())),
+            _ => Next::Stop,
+        }
+    };
+    let render = |lag: u32, threads: usize, tile: u32| {
+        let schedule = Schedule::Adaptive { lag, decide: Box::new(decide) };
+        let settings = Settings { threads, tile, ..base.clone() };
+        render_by(&schedule, &scene, &settings, &AtomicBool::new(false), &|_| {}).expect("a camera").film
+    };
+    for lag in [0, 1, 2] {
+        let first = render(lag, 1, 8);
+        let replicates: Vec<u32> = first.pixels().map(|[x, y]| first.replicates(x, y)).collect();
+        assert!(replicates.iter().min() < replicates.iter().max(), "{replicates:?}");
+        for (threads, tile) in [(2, 8), (7, 8), (3, 5), (2, 64), (2, 1)] {
+            assert!(render(lag, threads, tile) == first, "lag {lag}, {threads} threads, tiles of {tile}");
+        }
+    }
+    // Rounds of all pixels, decided one by one, are what a fixed number of them is.
+    let all = |round, _: &Film| if round < 8 { Next::Sample(Pixels::All) } else { Next::Stop };
+    let schedule = Schedule::Adaptive { lag: 1, decide: Box::new(all) };
+    let output = render_by(&schedule, &scene, &base, &AtomicBool::new(false), &|_| {}).expect("a camera");
+    assert!(output.film == film(&scene, &base));
 }
 
 #[test]

@@ -16,12 +16,14 @@ pub mod path;
 pub mod raycast;
 pub mod replay;
 mod scatter;
+mod solver;
 pub mod strategy;
 pub mod whitted;
 
 pub use classes::Classes;
 pub use medium::Sides;
 pub use scatter::Stray;
+pub use solver::Solver;
 pub use strategy::Drawn;
 
 use crate::bsdf::{Pdf, Transport};
@@ -47,6 +49,8 @@ pub struct Method<'a> {
     pub max_depth: u32,
     /// The interiors about the camera.
     pub inside: Inside,
+    /// What was prepared before the first ray.
+    pub solver: Solver,
 }
 
 /// Someone who watches a path: the split by transport class, a replay, a test. The estimators report each piece of

@@ -1,20 +1,25 @@
-//! Tiles × sample indices on all cores → film.
+//! Rounds of tiles on all cores → film.
 
 mod order;
-mod pass;
+mod plan;
+mod rounds;
+mod schedule;
+mod workers;
+
+pub use schedule::{Next, Pixels, Schedule};
 
 use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};
 use crate::film::{self, Film, Invalid, Layers, PixelSample, Replicate, filter_offset};
 use crate::integrator::replay::Replay;
-use crate::integrator::{self, ByClass, Method, Observer, RayCount};
+use crate::integrator::{self, ByClass, Method, Observer, RayCount, Solver};
 use crate::sampler::{self, Sampler};
 use crate::scene::Scene;
 use crate::spectrum::Spectrum;
 use glam::Vec2;
 use order::Area;
-use pass::Passes;
-use rayon::prelude::*;
+use plan::Plan;
+use rounds::{Done, Job, Rounds};
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
@@ -64,7 +69,7 @@ pub struct Progress {
     pub rays: u64,
     /// Time since the start.
     pub elapsed: Duration,
-    /// Mean over the pixels of stderr/(mean + 0.01), after the last whole pass; NaN before there are two replicates.
+    /// Mean over the pixels of stderr/(mean + 0.01), after the last whole round; NaN before there are two replicates.
     pub relative_error: f64,
 }
 
@@ -90,7 +95,7 @@ pub struct Output {
     pub bad_count: u64,
     /// Rays traced.
     pub rays: u64,
-    /// Samples of every pixel.
+    /// Samples of every pixel that no round left out.
     pub samples_per_pixel: u32,
     /// Wall-clock time.
     pub elapsed: Duration,
@@ -135,8 +140,19 @@ pub enum Error {
 }
 
 /// Renders. Every pixel's samples are taken in the order of their indices, whatever the threads and tiles, so the
-/// image is the same bit for bit. `stop` ends it after the running pass (one replicate of every pixel).
+/// image is the same bit for bit. `stop` ends it after the running round (one replicate of every pixel).
 pub fn render(
+    scene: &Scene,
+    settings: &Settings,
+    stop: &AtomicBool,
+    progress: &(dyn Fn(&Progress) + Sync),
+) -> Result<Output, Error> {
+    render_by(&Schedule::of(settings), scene, settings, stop, progress)
+}
+
+/// Renders the rounds that a schedule asks for.
+pub fn render_by(
+    schedule: &Schedule,
     scene: &Scene,
     settings: &Settings,
     stop: &AtomicBool,
@@ -154,32 +170,25 @@ pub fn render(
     let total = pixels * u64::from(settings.spp);
     let (samples, rays) = (AtomicU64::new(0), AtomicU64::new(0));
     let film = Film::new(settings.size, settings.crop, &tracer.layers);
-    let passes = Passes::new(film, tiles.len());
+    let rounds = Rounds::new(film, tiles.len(), schedule, tracer.method.solver.splats());
 
-    // Tile after tile, pass after pass: whoever is free takes the next, and nobody waits for a pass to end.
-    let (count, mut begun) = (settings.spp / settings.replicate, 0);
-    let work = (0..count).flat_map(|pass| (0..tiles.len()).map(move |tile| (pass, tile)));
-    let work = work.take_while(|&(pass, tile)| {
-        let enough = || pass > 0 && settings.time.is_some_and(|limit| start.elapsed() >= limit);
-        let goes_on = tile > 0 || !(stop.load(Ordering::Relaxed) || enough());
-        begun = if goes_on { pass + 1 } else { begun };
-        goes_on
-    });
-    let all = || {
-        work.par_bridge().for_each(|(pass, tile)| {
-            let done = tracer.tile(tiles[tile], u64::from(pass) * u64::from(settings.replicate));
-            let rays = rays.fetch_add(done.rays, Ordering::Relaxed) + done.rays;
-            let samples = samples.fetch_add(done.samples, Ordering::Relaxed) + done.samples;
-            let relative_error = passes.add(pass, tile, done);
-            progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error });
-        });
+    // Tile after tile, round after round: whoever is free takes the next, and nobody waits for a round to end.
+    let enough = |round| round > 0 && settings.time.is_some_and(|limit| start.elapsed() >= limit);
+    let next = || rounds.take(|round| !(stop.load(Ordering::Relaxed) || enough(round)));
+    let work = |job: &Job| {
+        let done = tracer.tile(tiles[job.tile], &job.plan);
+        let rays = rays.fetch_add(done.rays, Ordering::Relaxed) + done.rays;
+        let samples = samples.fetch_add(done.samples, Ordering::Relaxed) + done.samples;
+        let put = rounds.put(job, done);
+        progress(&Progress { samples, total, rays, elapsed: start.elapsed(), relative_error: put.relative_error });
+        put.wanted
     };
     match &pool {
-        Some(pool) => pool.install(all),
-        None => all(),
+        Some(pool) => pool.install(|| workers::run(&next, &work)),
+        None => workers::run(&next, &work),
     }
-    let done = begun * settings.replicate;
-    let (film, bad, bad_count) = passes.finish();
+    let Done { film, rounds, bad, bad_count } = rounds.finish();
+    let done = rounds * settings.replicate;
     Ok(Output {
         film,
         bad,
@@ -242,6 +251,7 @@ impl<'a> Tracer<'a> {
                 strategy: settings.strategy,
                 max_depth: settings.max_depth.unwrap_or(u32::MAX),
                 inside: scene.inside(camera.middle()),
+                solver: Solver::prepare(scene, settings.integrator),
             },
             camera,
             settings,
@@ -254,12 +264,12 @@ impl<'a> Tracer<'a> {
         })
     }
 
-    /// The replicate that begins at sample `first`, of all pixels of an area.
-    fn tile(&self, area: Area, first: u64) -> Tile {
+    /// The replicates that a round takes of the pixels of an area.
+    fn tile(&self, area: Area, plan: &Plan) -> Tile {
         if self.settings.transport {
-            self.watched_tile(area, first, |(classes, rays): &(ByClass, RayCount)| (rays.0, &classes.0))
+            self.watched_tile(area, plan, |(classes, rays): &(ByClass, RayCount)| (rays.0, &classes.0))
         } else {
-            self.watched_tile(area, first, |rays: &RayCount| (rays.0, &[Spectrum::ZERO; 7]))
+            self.watched_tile(area, plan, |rays: &RayCount| (rays.0, &[Spectrum::ZERO; 7]))
         }
     }
 
@@ -267,12 +277,15 @@ impl<'a> Tracer<'a> {
     fn watched_tile<O: Observer + Default>(
         &self,
         area: Area,
-        first: u64,
+        plan: &Plan,
         seen: impl Fn(&O) -> (u64, &film::ByClass),
     ) -> Tile {
         let mut tile = Tile { sums: Replicate::new(&self.layers, area), samples: 0, rays: 0, bad: Vec::new() };
+        let ([x0, y0, x1, _], length) = (self.settings.crop, u64::from(self.settings.replicate));
         for (x, y) in positions(area) {
-            for index in first..first + u64::from(self.settings.replicate) {
+            let i = (y - y0) as usize * (x1 - x0) as usize + (x - x0) as usize;
+            let Some(replicate) = plan.replicate(i).map(u64::from) else { continue };
+            for index in replicate * length..(replicate + 1) * length {
                 let mut watch = O::default();
                 let sample = self.sample([x, y], index, &mut watch);
                 let (rays, classes) = seen(&watch);
@@ -281,7 +294,7 @@ impl<'a> Tracer<'a> {
                     tile.bad.push(BadSample { pixel: [x, y], index, invalid });
                 }
             }
-            tile.samples += u64::from(self.settings.replicate);
+            tile.samples += length;
         }
         tile
     }

@@ -5,7 +5,7 @@
 use super::agreement::{samples, scene, small};
 use crate::camera::Camera;
 use crate::desc::{Integrator, SamplerKind, Strategy};
-use crate::integrator::{Classes, Drawn, Method, Observer, radiance};
+use crate::integrator::{Classes, Drawn, Method, Observer, Solver, radiance};
 use crate::render::{Error, Settings};
 use crate::sampler::{Kind, Sampler, hash};
 use crate::scene::Scene;
@@ -127,7 +127,8 @@ fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
     let (integrator, strategy, max_depth) = (Integrator::Path, settings.strategy, u32::MAX);
     let camera = Camera::new(&scene.cameras[settings.camera], settings.size);
     let inside = scene.inside(camera.middle());
-    let method = Method { scene, integrator, strategy, max_depth, inside };
+    let solver = Solver::prepare(scene, integrator);
+    let method = Method { scene, integrator, strategy, max_depth, inside, solver };
     let seed = hash(&[settings.seed, 2]);
     let sample = |[x, y]: [u32; 2], index: u64| {
         let mut u = Sampler::new(Kind::Independent, seed, [x, y], index, 1);
