@@ -291,3 +291,52 @@ fn mitsuba_sees_the_same() {
         }
     }
 }
+
+/// Radiance × coverage where the target emits whatever its mask lets through; the surface's own alpha where it does not.
+#[test]
+fn what_emits_through_holes_emits_by_its_coverage() {
+    let folder = tempfile::tempdir().unwrap();
+    let image = image::RgbaImage::from_fn(2, 1, |x, _| image::Rgba([255, 0, 255, if x == 0 { 64 } else { 255 }]));
+    image.save(folder.path().join("lamp.png")).unwrap();
+    std::fs::write(
+        folder.path().join("a.toml"),
+        r#"
+        [texture.lamp]
+        type = "image"
+        file = "lamp.png"
+        [material.half]
+        type = "absorb"
+        opacity = 0.5
+        [material.cut]
+        type = "absorb"
+        opacity = { texture = "lamp", channel = "a" }
+        opacity_cutoff = 0.5
+        emission = [4, 2, 1]
+        [[shape]]
+        type = "sphere"
+        material = "half"
+        emission = [4, 2, 1]
+        emission_sides = "both"
+        [[shape]]
+        type = "quad"
+        corner = [2, 0, 0]
+        edge_u = [1, 0, 0]
+        edge_v = [0, 1, 0]
+        material = "cut"
+        "#,
+    )
+    .unwrap();
+    for file in ["a.xml", "a.pbrt"] {
+        let (code, err) = radianza(folder.path(), &["export", "a.toml", "-o", file]);
+        assert_eq!(code, 0, "{err}");
+    }
+    let xml = std::fs::read_to_string(folder.path().join("a.xml")).unwrap();
+    assert!(xml.contains(r#"name="radiance" value="2, 1, 0.5""#), "{xml}");
+    assert_eq!((count(&xml, "emitter", "area"), count(&xml, "bsdf", "null")), (3, 1));
+    let file = xml.split("\"a-mitsuba/").find_map(|s| s.split('"').next().filter(|f| f.ends_with(".exr")));
+    let image = read_exr(&folder.path().join("a-mitsuba").join(file.expect("a picture of the lamp"))).unwrap();
+    let [r, g, b] = image.rgb(radianza::film::Image::BEAUTY).expect("colours");
+    assert_eq!((r, g, b), (&[0.0, 4.0][..], &[0.0, 2.0][..], &[0.0, 1.0][..]));
+    let pbrt = std::fs::read_to_string(folder.path().join("a.pbrt")).unwrap();
+    assert!(pbrt.contains("rgb L\" [4 2 1]") && pbrt.contains("\"float alpha\" [0.5]"), "{pbrt}");
+}

@@ -4,7 +4,7 @@
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec3A, Vec4};
-use radianza::light::{Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
+use radianza::light::{Emitter, Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
@@ -62,12 +62,12 @@ fn environments_add_up() {
 fn powers_are_the_integrals_of_what_is_emitted() {
     let none = |_: usize| Vec4::ONE;
     let pi = std::f64::consts::PI;
-    let emission = |sides| Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None };
+    let emitter = |sides| Emitter::new(&Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None });
     let identity = Transform::from_mat4(Mat4::IDENTITY).expect("invertible");
     let sphere = PlacedQuadric::new(Quadric::Sphere { radius: 2.0 }, identity, false);
-    let sphere = Light::Quadric(Box::new(QuadricLight::new(sphere, &emission(Sides::Front))));
+    let sphere = Light::Quadric(Box::new(QuadricLight::new(sphere, emitter(Sides::Front))));
     let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
-    let sheet = TriangleLight::new(corners, &TriangleAttributes::default(), false, &emission(Sides::Both));
+    let sheet = TriangleLight::new(corners, &TriangleAttributes::default(), false, emitter(Sides::Both));
     let sheet = Light::Triangle(sheet.expect("a triangle with an area"));
     for (light, exact) in [
         (&sphere, 16.0 * pi * pi),

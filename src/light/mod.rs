@@ -57,7 +57,8 @@ pub struct LightSample {
     /// Where a shadow ray along `wi` may end \[m\]: short of the light by the error bound of its distance, so that the
     /// light's own surface is not met; infinite for light from infinity.
     pub distance: f32,
-    /// Arriving radiance \[W·sr⁻¹·m⁻²\]; for delta lights irradiance perpendicular to `wi` \[W/m²\].
+    /// Arriving radiance \[W·sr⁻¹·m⁻²\], of a surface with holes times its coverage; for delta lights irradiance
+    /// perpendicular to `wi` \[W/m²\].
     pub le: Spectrum,
     /// Density over solid angle at the point, or the probability of a delta light; the choice among lights included
     /// where the sample was drawn from all of them.

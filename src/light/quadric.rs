@@ -4,7 +4,6 @@ use super::area::Sight;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample};
 use crate::bsdf::Pdf;
-use crate::desc;
 use crate::math::Frame;
 use crate::shape::{PlacedQuadric, Quadric};
 use crate::spectrum::Spectrum;
@@ -39,8 +38,8 @@ struct Cap {
 
 impl QuadricLight {
     /// An emissive shape.
-    pub fn new(shape: PlacedQuadric, emission: &desc::Emission) -> Self {
-        Self { sphere: shape.as_sphere(), shape, emitter: Emitter::new(emission) }
+    pub fn new(shape: PlacedQuadric, emitter: Emitter) -> Self {
+        Self { sphere: shape.as_sphere(), shape, emitter }
     }
 
     /// Draws a point of the surface.
@@ -59,11 +58,11 @@ impl QuadricLight {
             None => (self.shape.quadric.sample_area(u), None),
         };
 
-        let surface = self.shape.surface_at(&point, !self.emitter.is_uniform());
+        let surface = self.shape.surface_at(&point, !self.emitter.is_uniform(false));
         let sight = Sight::new(reference, surface.p, surface.ng)?;
         let area_pdf = || (1.0 / (self.shape.quadric.area() * self.shape.area_scale(point.n))) as f32;
         let pdf = cone_pdf.unwrap_or_else(|| sight.solid_angle_pdf(area_pdf()));
-        let le = self.emitter.le(&surface.uv, Vec4::ONE, sight.cos, textures);
+        let le = self.emitter.mean_le(&surface.uv, Vec4::ONE, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
             wi: sight.wi,
             distance: sight.shadow_end(reference, surface.p, surface.ng),

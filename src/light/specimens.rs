@@ -1,6 +1,6 @@
 //! The family, for tests and verification: every kind of light with points that see it in every way there is.
 
-use super::{Environment, Light, QuadricLight, TriangleLight};
+use super::{Emitter, Environment, Light, QuadricLight, TriangleLight};
 use crate::desc::{self, ColorParam, Emission, Sides};
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric, TriangleAttributes};
@@ -28,12 +28,12 @@ pub fn specimens() -> Vec<Specimen> {
 }
 
 /// Emission of linear RGB (2, 3, 1).
-fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides, coat: None }
+fn emitter(sides: Sides) -> Emitter {
+    Emitter::new(&Emission { radiance: ColorParam::constant([2.0, 3.0, 1.0]), sides, coat: None })
 }
 
 fn triangles() -> Vec<Specimen> {
-    let triangle = |p, sides| TriangleLight::new(p, &TriangleAttributes::default(), false, &emission(sides));
+    let triangle = |p, sides| TriangleLight::new(p, &TriangleAttributes::default(), false, emitter(sides));
     let specimen = |name, p, sides, points| {
         triangle(p, sides).map(|light| Specimen { name, light: Light::Triangle(light), points })
     };
@@ -77,7 +77,8 @@ fn colored(p: [Vec3; 3]) -> Option<Specimen> {
     let grey = |x: f32| Vec4::new(x, x, x, 1.0);
     let attributes = TriangleAttributes { colors: Some([grey(0.1), grey(0.2), grey(5.0)]), ..Default::default() };
     let radiance = ColorParam { vertex_color: true, ..ColorParam::constant([2.0, 3.0, 1.0]) };
-    let mut light = TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front, coat: None })?;
+    let emitter = Emitter::new(&Emission { radiance, sides: Sides::Front, coat: None });
+    let mut light = TriangleLight::new(p, &attributes, false, emitter)?;
     light.divide(&Textures::default(), 1 << 14);
     let points = vec![("near", Vec3::new(0.2, 0.3, 0.4)), ("far", Vec3::new(3.0, 2.0, 9.0))];
     Some(Specimen { name: "triangle with colours", light: Light::Triangle(light), points })
@@ -87,7 +88,7 @@ fn quadrics() -> Vec<Specimen> {
     let specimen = |name, quadric, to_world: Mat4, reversed, sides, points| {
         Transform::from_mat4(to_world).map(|transform| {
             let shape = PlacedQuadric::new(quadric, transform, reversed);
-            Specimen { name, light: Light::Quadric(Box::new(QuadricLight::new(shape, &emission(sides)))), points }
+            Specimen { name, light: Light::Quadric(Box::new(QuadricLight::new(shape, emitter(sides)))), points }
         })
     };
     let turned = Quat::from_axis_angle(Vec3::new(1.0, 2.0, -1.0).normalize(), 0.7);

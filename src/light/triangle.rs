@@ -5,7 +5,6 @@ use super::cells::Cells;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample, SphericalTriangle};
 use crate::bsdf::Pdf;
-use crate::desc;
 use crate::math::Ray;
 use crate::shape::{
     Surface, TriangleAttributes, interpolate, intersect_triangle, triangle_area, triangle_normal, triangle_surface,
@@ -39,7 +38,7 @@ pub struct TriangleLight {
     near2: f32,
     /// How it emits.
     pub emitter: Emitter,
-    /// Texture coordinates and colours, where the emission depends on them.
+    /// Texture coordinates and colours, where the emission or the coverage depends on them.
     attributes: Option<Box<TriangleAttributes>>,
     flip: bool,
     /// Where the emission changes over the triangle: once [`divide`](Self::divide) has looked.
@@ -58,20 +57,20 @@ struct Picture {
 impl TriangleLight {
     /// World-space triangle `p`, its front to the side from which it runs counter-clockwise, or to the other with
     /// `flip`; `None` where it has no area.
-    pub fn new(p: [Vec3; 3], attributes: &TriangleAttributes, flip: bool, emission: &desc::Emission) -> Option<Self> {
+    pub fn new(p: [Vec3; 3], attributes: &TriangleAttributes, flip: bool, emitter: Emitter) -> Option<Self> {
         let front = Vec3A::from(triangle_normal(p)?);
         let area = triangle_area(p);
         let p = p.map(Vec3A::from);
         let centroid = p[0] / 3.0 + p[1] / 3.0 + p[2] / 3.0;
         let radius2 = p.iter().map(|p| p.distance_squared(centroid)).fold(0.0, f32::max);
-        let emitter = Emitter::new(emission);
+        let is_pictured = !emitter.is_uniform(attributes.colors.is_some());
         (area > 0.0 && area.is_finite() && radius2.is_finite()).then(|| Self {
             p,
             ng: if flip { -front } else { front },
             area,
             centroid,
             near2: NEAR * NEAR * radius2,
-            attributes: (!emitter.is_uniform()).then(|| Box::new(*attributes)),
+            attributes: is_pictured.then(|| Box::new(*attributes)),
             emitter,
             flip,
             picture: None,
@@ -80,7 +79,7 @@ impl TriangleLight {
 
     /// Whether the emission changes over the triangle.
     pub fn is_pictured(&self) -> bool {
-        !self.emitter.is_uniform()
+        self.attributes.is_some()
     }
 
     /// Finds the mean of what the triangle shows, and its bright parts, in at most `lookups` look-ups.
@@ -92,7 +91,7 @@ impl TriangleLight {
         let steps = self.emitter.steps(&corners, textures).unwrap_or(GRADIENT);
         let le = |at: [f32; 2]| {
             let (uv, color) = self.appearance(at);
-            self.emitter.le(&uv, color, 1.0, textures)
+            self.emitter.mean_le(&uv, color, 1.0, textures)
         };
         let (mean, cells) = Cells::new(le, steps, lookups.max(1));
         self.picture = Some(Box::new(Picture { mean, cells }));
@@ -134,7 +133,7 @@ impl TriangleLight {
     #[inline(always)]
     fn drawn(&self, weights: [f32; 2], sight: &Sight, end: f32, pdf: f32, textures: &Textures) -> Option<LightSample> {
         let (uv, color) = self.appearance(weights);
-        let le = self.emitter.le(&uv, color, sight.cos, textures);
+        let le = self.emitter.mean_le(&uv, color, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
             wi: sight.wi,
             distance: end,

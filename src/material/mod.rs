@@ -191,13 +191,7 @@ impl Material {
     /// Probability that the surface is there: 1 where opaque, 0 or 1 for masks, coverage × vertex alpha in between.
     #[inline]
     pub fn coverage(&self, uv: &[Vec2; 2], color: Vec4, textures: &Textures) -> f32 {
-        let at = Point { uv, color, textures, eta: None };
-        let vertex = if color.w.is_finite() { color.w.clamp(0.0, 1.0) } else { 1.0 };
-        match &self.alpha {
-            Alpha::Opaque => 1.0,
-            Alpha::Mask { coverage, cutoff } => f32::from(param::scalar(coverage, at) * vertex >= *cutoff),
-            Alpha::Blend { coverage } => param::scalar(coverage, at) * vertex,
-        }
+        textures.coverage(&self.alpha, uv, color)
     }
 
     /// It looks at texture coordinates, tangents or vertex colours: something varies over the surface, or has a direction.

@@ -52,12 +52,7 @@ pub fn share(p: &ColorParam, at: Point) -> Spectrum {
 /// A number in [0, 1].
 #[inline]
 pub fn scalar(p: &ScalarParam, at: Point) -> f32 {
-    let texture = match &p.texture {
-        None => 1.0,
-        Some((t, channel)) => at.textures.lookup(t, at.uv).to_array()[(*channel).min(3)],
-    };
-    // NaN becomes 0.
-    (p.factor * texture).max(0.0).clamp(0.0, 1.0)
+    at.textures.scalar(p, at.uv)
 }
 
 /// Radiance \[W·sr⁻¹·m⁻²\] emitted at the cosine `cos` to the normal, negative to the back.

@@ -4,7 +4,7 @@ use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
 use super::{Info, Media, Scene};
 use crate::bvh::{Quality, TriangleBvh};
 use crate::desc::{self, Error, Mesh, Object, Shape};
-use crate::light::{Environment, Light, Lights, QuadricLight, TriangleLight};
+use crate::light::{Emitter, Environment, Light, Lights, QuadricLight, TriangleLight};
 use crate::material::Material;
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric};
@@ -135,16 +135,17 @@ impl<'a> Builder<'a> {
             Error::invalid(file, "", format!("the transform of object `{name}` is singular or not affine"))
         })?;
         let material = self.material(object);
-        let emission = self.materials[material as usize].emission;
+        let written = &self.materials[material as usize];
+        let emitter = written.emission.map(|emission| Emitter::new(&emission).with_alpha(written.alpha));
         let flip = transform.mirrors() != object.reversed;
         match &self.desc.shapes[object.shape] {
             Shape::Mesh(mesh) => {
-                let emitter = emission.map(|emission| {
+                let emitter = emitter.map(|emitter| {
                     let first = self.emitters.len() as u32;
                     for triangle in 0..mesh.indices.len() as u32 {
                         let (p, attributes) = corners(mesh, triangle, true);
                         let p = p.map(|p| transform.to_world.transform_point3(p));
-                        let light = TriangleLight::new(p, &attributes, flip, &emission);
+                        let light = TriangleLight::new(p, &attributes, flip, emitter.clone());
                         self.emit(light.map(Light::Triangle));
                     }
                     first
@@ -166,8 +167,8 @@ impl<'a> Builder<'a> {
             shape => {
                 if let Some(quadric) = Quadric::from_desc(shape) {
                     let placed = PlacedQuadric::new(quadric, transform, object.reversed);
-                    let emitter = emission.map(|emission| {
-                        self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, &emission)))));
+                    let emitter = emitter.map(|emitter| {
+                        self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, emitter)))));
                         (self.emitters.len() - 1) as u32
                     });
                     self.quadrics.push((placed, Owner { material, emitter, charted: true }));

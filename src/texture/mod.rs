@@ -12,7 +12,7 @@
 
 mod image;
 
-use crate::desc::{self, TextureRef};
+use crate::desc::{self, Alpha, ScalarParam, TextureRef};
 use glam::{Vec2, Vec3, Vec4};
 use image::ImageTexture;
 
@@ -50,6 +50,27 @@ impl Textures {
         let uv = t.transform.transform_point2(uv[t.uv_set.min(1)]);
         let finite = |x: f32| if x.is_finite() { x } else { 0.0 };
         self.textures[t.texture].at(Vec2::new(finite(uv.x), finite(uv.y)))
+    }
+
+    /// A number in \[0, 1\] at a point with these texture coordinates; NaN counts as 0.
+    #[inline]
+    pub fn scalar(&self, p: &ScalarParam, uv: &[Vec2; 2]) -> f32 {
+        let texture = match &p.texture {
+            None => 1.0,
+            Some((t, channel)) => self.lookup(t, uv).to_array()[(*channel).min(3)],
+        };
+        (p.factor * texture).max(0.0).clamp(0.0, 1.0)
+    }
+
+    /// Probability that a surface is there, at a point with these texture coordinates and this vertex colour: 1 where it is
+    /// opaque, 0 or 1 for masks, coverage × vertex alpha in between.
+    pub fn coverage(&self, alpha: &Alpha, uv: &[Vec2; 2], color: Vec4) -> f32 {
+        let vertex = if color.w.is_finite() { color.w.clamp(0.0, 1.0) } else { 1.0 };
+        match alpha {
+            Alpha::Opaque => 1.0,
+            Alpha::Mask { coverage, cutoff } => f32::from(self.scalar(coverage, uv) * vertex >= *cutoff),
+            Alpha::Blend { coverage } => self.scalar(coverage, uv) * vertex,
+        }
     }
 
     /// Linear RGBA averaged over the texture's unit square (of a checker: over the plane). Looks at every pixel.

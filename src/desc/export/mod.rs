@@ -12,6 +12,7 @@
 //! | `picture.rs` | images with factors and channels worked in |
 //! | `octahedral.rs` | environments on a square of equal areas |
 //! | `value.rs` | parameters: constants, images, checkers |
+//! | `emission.rs` | radiance of what has holes |
 //! | `micro.rs` | roughness as α |
 //! | `sun.rs` | the sun as a far disk |
 //! | `fit.rs` | indices of refraction with a given reflectance |
@@ -19,6 +20,7 @@
 //! | `pbrt/` | the directives of pbrt |
 
 mod beside;
+mod emission;
 mod fit;
 mod form;
 mod mesh;

@@ -21,10 +21,27 @@ pub(super) enum Picture {
     },
     /// One channel.
     Channel { image: usize, srgb: bool, channel: usize, factor: f32, map: Map },
+    /// Linear RGB, or white, times a factor and a coverage.
+    Covered {
+        image: usize,
+        /// RGB of the image, which is sRGB or not.
+        color: Option<bool>,
+        factor: [f32; 3],
+        cover: Cover,
+    },
     /// A normal map with its strengths along x and y.
     Normals { image: usize, scale: [f32; 2] },
     /// An environment on a square of equal areas.
     Octahedral { image: usize, factor: [f32; 3], to_world: Mat3 },
+}
+
+/// A channel that says how much of a surface is there.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Cover {
+    pub(super) srgb: bool,
+    pub(super) channel: usize,
+    pub(super) factor: f32,
+    pub(super) map: Map,
 }
 
 /// What a channel means to the target.
@@ -62,6 +79,7 @@ impl Picture {
         match self {
             Self::Color { image, .. }
             | Self::Channel { image, .. }
+            | Self::Covered { image, .. }
             | Self::Normals { image, .. }
             | Self::Octahedral { image, .. } => *image,
         }
@@ -128,6 +146,11 @@ impl Picture {
                 [0, 1, 2].map(|c| (p[c] * factor[c]).max(0.0).min(most))
             }
             Self::Channel { srgb, channel, factor, map, .. } => [map.apply(texel(srgb)[channel.min(3)] * factor); 3],
+            Self::Covered { color, factor, cover, .. } => {
+                let share = cover.map.apply(texel(cover.srgb)[cover.channel.min(3)] * cover.factor);
+                let [r, g, b, _] = color.map_or([1.0; 4], texel);
+                [r * factor[0], g * factor[1], b * factor[2]].map(|x| (x * share).max(0.0))
+            }
             Self::Normals { scale, .. } => {
                 let p = texel(false);
                 let n = glam::Vec3::new(p[0], p[1], p[2]) * 2.0 - 1.0;

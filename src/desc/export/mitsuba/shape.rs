@@ -5,7 +5,7 @@ use super::super::beside::Beside;
 use super::super::form::{Form, Kind, Placed, copies, medium_of};
 use super::super::mesh::INSET;
 use super::xml::Element;
-use crate::desc::{Emission, Sides};
+use crate::desc::{Alpha, Sides};
 use glam::{Mat4, Vec3};
 use std::collections::HashMap;
 
@@ -53,14 +53,14 @@ fn mesh(one: &Placed, beside: &mut Beside) -> Result<Vec<Element>, ExportError> 
     let Form::Mesh { to_world, mirrors } = one.form else { return Ok(Vec::new()) };
     let reversed = one.object.reversed;
     let file = beside.mesh_of(one, mirrors != reversed, reversed, false)?;
-    let shape = |file: &str, beside: &Beside| {
-        let shape = owned(ply(file, one, beside), one);
+    let shape = |file: &str, wear: fn(Element, &Placed) -> Element, beside: &Beside| {
+        let shape = wear(ply(file, one, beside), one);
         if to_world == Mat4::IDENTITY { shape } else { shape.transform("to_world", to_world) }
     };
-    let mut elements = vec![emitting(shape(&file, beside), one.emission, beside)?];
+    let mut elements = vec![emitting(shape(&file, owned, beside), one, beside)?];
     if is_two_sided(one, beside) {
         let back = beside.mesh_of(one, mirrors == reversed, !reversed, true)?;
-        elements.push(emitting(shape(&back, beside), one.emission, beside)?);
+        elements.push(emitting(shape(&back, backed, beside), one, beside)?);
     }
     Ok(elements)
 }
@@ -78,10 +78,10 @@ fn is_two_sided(one: &Placed, beside: &mut Beside) -> bool {
 
 fn quadric(one: &Placed, beside: &mut Beside) -> Result<Vec<Element>, ExportError> {
     let turned = one.object.reversed;
-    let mut elements = vec![emitting(owned(body(&one.form, turned, 0.0), one), one.emission, beside)?];
+    let mut elements = vec![emitting(owned(body(&one.form, turned, 0.0), one), one, beside)?];
     if is_two_sided(one, beside) {
         let inset = if turned { -INSET } else { INSET };
-        elements.push(emitting(owned(body(&one.form, !turned, inset), one), one.emission, beside)?);
+        elements.push(emitting(backed(body(&one.form, !turned, inset), one), one, beside)?);
     }
     Ok(elements)
 }
@@ -111,6 +111,12 @@ fn body(form: &Form, turned: bool, inset: f32) -> Element {
     if turned { shape.boolean("flip_normals", true) } else { shape }
 }
 
+/// The second surface of what emits from both sides. Where that has holes the first alone lets through a share and scatters
+/// the rest: here everything passes.
+fn backed(shape: Element, one: &Placed) -> Element {
+    if one.material.alpha == Alpha::Opaque { owned(shape, one) } else { shape.child(Element::bsdf("null")) }
+}
+
 /// With its material, and what is inside.
 fn owned(shape: Element, one: &Placed) -> Element {
     let index = one.object.material;
@@ -121,11 +127,11 @@ fn owned(shape: Element, one: &Placed) -> Element {
     }
 }
 
-fn emitting(shape: Element, emission: Option<Emission>, beside: &mut Beside) -> Result<Element, ExportError> {
-    let Some(emission) = emission else { return Ok(shape) };
+fn emitting(shape: Element, one: &Placed, beside: &mut Beside) -> Result<Element, ExportError> {
+    let Some(emission) = one.emission else { return Ok(shape) };
     if emission.coat.is_some() {
         beside.note("the clear coat over emitters takes none of their light");
     }
-    let radiance = beside.radiance(&emission.radiance)?;
+    let radiance = beside.covered_radiance(&emission.radiance, &one.material.alpha)?;
     Ok(shape.child(Element::plugin("emitter", "area").color("radiance", &radiance)))
 }

@@ -11,7 +11,7 @@ mod specimens;
 mod tree;
 
 use crate::desc::{self, ColorParam, Emission, Sides};
-use crate::light::{Environment, Light, QuadricLight, TriangleLight};
+use crate::light::{Emitter, Environment, Light, QuadricLight, TriangleLight};
 use crate::math::{Transform, safe_sqrt};
 use crate::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use crate::verify::Task;
@@ -36,19 +36,19 @@ pub(super) fn tasks() -> Vec<Task> {
 }
 
 /// Uniform grey emission of radiance 1.
-fn emission(sides: Sides) -> Emission {
-    Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None }
+fn emitter(sides: Sides) -> Emitter {
+    Emitter::new(&Emission { radiance: ColorParam::constant([1.0; 3]), sides, coat: None })
 }
 
 /// An emissive triangle of radiance 1, where the corners span one.
 fn triangle_light(p: [Vec3; 3], sides: Sides) -> Option<Light> {
-    TriangleLight::new(p, &TriangleAttributes::default(), false, &emission(sides)).map(Light::Triangle)
+    TriangleLight::new(p, &TriangleAttributes::default(), false, emitter(sides)).map(Light::Triangle)
 }
 
 /// An emissive quadric of radiance 1, where the map is invertible.
 fn quadric_light(quadric: Quadric, to_world: Mat4, sides: Sides) -> Option<Light> {
     let transform = Transform::from_mat4(to_world)?;
-    let light = QuadricLight::new(PlacedQuadric::new(quadric, transform, false), &emission(sides));
+    let light = QuadricLight::new(PlacedQuadric::new(quadric, transform, false), emitter(sides));
     Some(Light::Quadric(Box::new(light)))
 }
 

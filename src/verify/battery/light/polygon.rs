@@ -6,7 +6,7 @@
 use super::irradiance::Lit;
 use super::{random_direction, rng, triangle_light};
 use crate::desc::{self, ColorParam, Emission, Sides};
-use crate::light::{Light, TriangleLight};
+use crate::light::{Emitter, Light, TriangleLight};
 use crate::shape::TriangleAttributes;
 use crate::texture::Textures;
 use crate::verify::{Findings, Task, Topic, Trial};
@@ -112,9 +112,8 @@ fn textured(trial: &Trial, found: &mut Findings) {
     };
     for (k, (name, height)) in [("near", 0.4), ("far", 5.0)].into_iter().enumerate() {
         let p = [Vec3::new(1.0, -0.5, height), Vec3::new(-1.0, -1.0, height), Vec3::new(0.2, 1.5, height)];
-        let Some(light) =
-            TriangleLight::new(p, &attributes, false, &Emission { radiance, sides: Sides::Front, coat: None })
-        else {
+        let emitter = Emitter::new(&Emission { radiance, sides: Sides::Front, coat: None });
+        let Some(light) = TriangleLight::new(p, &attributes, false, emitter) else {
             found.checks.holds(format!("{name} is a triangle"), false);
             continue;
         };
