@@ -59,14 +59,15 @@ impl Choice {
         self.alias.is_none()
     }
 
-    /// A light and its probability, at `uc`; `None` where no light reaches the receiver. A way down a deep tree takes
-    /// more than the 24 bits of `uc`: the others are hashed from `u`, which places the point on the light.
+    /// A light and its probability, at `uc`; `None` where no light reaches the receiver. A way down a deep tree, and a
+    /// choice among a hundred thousand, take more than the 24 bits of `uc`: the others are hashed from `u`, which places
+    /// the point on the light.
     #[inline(always)]
     pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         let alias = self.alias.as_ref()?;
         match &self.many {
             None => {
-                let index = alias.choose(uc);
+                let index = alias.choose(if alias.is_wide() { finer(uc, u) } else { f64::from(uc) });
                 Some((index as u32, alias.probability(index)))
             }
             Some(many) => self.choose_of(many, alias, receiver, uc, u),
@@ -75,10 +76,10 @@ impl Choice {
 
     #[inline(never)]
     fn choose_of(&self, many: &Many, alias: &Alias, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
-        let fine = f64::from(uc) + f64::from(scrambled(u)) * 2f64.powi(-56);
+        let fine = finer(uc, u);
         let by_power = f64::from(BY_POWER);
         if fine < by_power {
-            let index = alias.choose((fine / by_power) as f32) as u32;
+            let index = alias.choose(fine / by_power) as u32;
             return Some((index, self.probability(receiver, index)));
         }
         let (index, probability) = many.choose(receiver, (fine - by_power) / (1.0 - by_power))?;
@@ -88,7 +89,8 @@ impl Choice {
     /// Probability with which [`choose`](Self::choose) gives the light.
     #[inline]
     pub fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
-        let by_power = self.alias.as_ref().map_or(0.0, |alias| alias.probability(light as usize));
+        let Some(alias) = &self.alias else { return 0.0 };
+        let by_power = alias.probability(light as usize);
         match &self.many {
             None => by_power,
             Some(many) => BY_POWER * by_power + (1.0 - BY_POWER) * many.probability(receiver, light),
@@ -134,7 +136,7 @@ impl Many {
         let at = f64::from(share);
         if u < at {
             let alias = self.infinite.as_ref()?;
-            let index = alias.choose((u / at) as f32);
+            let index = alias.choose(u / at);
             return Some((index as u32, share * alias.probability(index)));
         }
         let (light, probability) = self.tree.choose(receiver, (u - at) / (1.0 - at))?;
@@ -147,6 +149,12 @@ impl Many {
         let infinite = self.infinite.as_ref().map_or(0.0, |alias| alias.probability(light as usize));
         if infinite > 0.0 { share * infinite } else { (1.0 - share) * self.tree.probability(receiver, light) }
     }
+}
+
+/// `uc` with 29 bits more.
+#[inline]
+fn finer(uc: f32, u: [f32; 2]) -> f64 {
+    f64::from(uc) + f64::from(scrambled(u)) * 2f64.powi(-56)
 }
 
 /// 32 bits that depend on all bits of both numbers (the finaliser of MurmurHash3, 64 bits).
