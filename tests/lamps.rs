@@ -94,3 +94,146 @@ fn lamps_with_transparent_vertices() {
     }
     strategies_agree("vertex alpha", &scene);
 }
+
+/// A view of nothing but what is at the origin, of about 1 m.
+fn close_up(shapes: &str) -> String {
+    format!(
+        r#"
+        [camera]
+        position = [4, 5, 6]
+        target = [0, 0, 0]
+        view_angle = 4
+        resolution = [8, 8]
+        [material.metal]
+        type = "conductor"
+        reflectance = 1
+        roughness = 0.4
+        [material.white]
+        type = "diffuse"
+        reflectance = 1
+        {shapes}
+        "#
+    )
+}
+
+/// Nothing of a convex body is seen from it: it has the radiance that it emits, to the last bit, whatever it reflects and
+/// however light is sampled.
+#[test]
+fn convex_lamps_do_not_light_themselves() {
+    let mut scenes = Vec::new();
+    for material in ["metal", "white"] {
+        for shape in [
+            "type = 'box'\nmin = [-1, -1, -1]\nmax = [1, 1, 1]",
+            "type = 'sphere'",
+            "type = 'disk'\nnormal = [1, 2, 3]",
+            "type = 'cylinder'\nfrom = [1, 0, -1]\nto = [-1, 0, 1]",
+            "type = 'quad'\ncorner = [-1, -1, 0.1]\nedge_u = [2, 0.2, 0]\nedge_v = [0, 2, 0.1]",
+        ] {
+            for sides in ["front", "both"] {
+                let text = format!("[[shape]]\n{shape}\nmaterial = '{material}'\nemission = 4\nemission_sides = '{sides}'");
+                scenes.push((format!("{material} {shape}, {sides}"), parse(&close_up(&text))));
+            }
+        }
+        // Meshes: flat triangles, and normals that make them round.
+        for round in [false, true] {
+            let text = format!("[[shape]]\ntype = 'sphere'\nmaterial = '{material}'\nemission = 4\nemission_sides = 'both'");
+            let mut scene = parse(&close_up(&text));
+            let (positions, indices) = common::closed_mesh(12, 1.0, glam::Vec3::ZERO);
+            let normals = if round { positions.clone() } else { Vec::new() };
+            let mesh = desc::Mesh { positions, indices, normals, ..desc::Mesh::default() };
+            scene.shapes[0] = desc::Shape::Mesh(mesh.into());
+            scenes.push((format!("{material} mesh, round: {round}"), scene));
+        }
+    }
+    for (name, desc) in scenes {
+        let scene = Scene::compile(&desc).unwrap_or_else(|e| panic!("{e}"));
+        for strategy in [Strategy::Bsdf, Strategy::Light, Strategy::Mis, Strategy::Cosine] {
+            let image = film(&scene, &Settings { spp: 64, replicate: 16, strategy, ..settings([8, 8]) });
+            for [x, y] in image.pixels() {
+                assert_eq!(image.mean(x, y), [4.0; 3], "{name}, {strategy:?}, pixel {x}, {y}");
+            }
+        }
+    }
+}
+
+/// A lamp over a point of the floor, a thousand kilometres from the origin, where neighbours in f32 are 6 cm apart.
+fn far_away(shapes: &str) -> String {
+    format!(
+        r#"
+        [camera]
+        position = [1000003, 1000004, 1000001]
+        target = [1000000, 1000000, 1000000]
+        view_angle = 4
+        resolution = [16, 16]
+        [material.floor]
+        type = "diffuse"
+        reflectance = 0.5
+        [[shape]]
+        type = "quad"
+        corner = [999990, 1000000, 1000010]
+        edge_u = [20, 0, 0]
+        edge_v = [0, 0, -20]
+        material = "floor"
+        [material.black]
+        type = "absorb"
+        {shapes}
+        "#
+    )
+}
+
+/// Lamps about 10 m above the floor.
+const FAR_LAMPS: [&str; 4] = [
+    "type = 'quad'\ncorner = [999990, 1000010, 999990]\nedge_u = [20, 0, 0]\nedge_v = [0, 0, 20]",
+    "type = 'quad'\ncorner = [999990, 1000010, 999990]\nedge_u = [20, 2, 0]\nedge_v = [-2, 1, 20]",
+    "type = 'disk'\ncenter = [1000000, 1000010, 1000000]\nnormal = [0, -1, 0]\nradius = 10",
+    "type = 'sphere'\ncenter = [1000000, 1000015, 1000000]\nradius = 5",
+];
+
+/// Shadow rays reach as far as the lamp: a sheet one metre before it leaves nothing of it.
+#[test]
+fn what_is_right_before_a_lamp_shadows() {
+    let sheet = "[[shape]]\ntype = 'quad'\ncorner = [999985, 1000009, 1000015]\nedge_u = [30, 0, 0]\nedge_v = [0, 0, -30]\n\
+                 material = 'black'\n";
+    for lamp in FAR_LAMPS {
+        let text = far_away(&format!("[[shape]]\n{lamp}\nemission = 4\n{sheet}"));
+        let scene = Scene::compile(&parse(&text)).unwrap_or_else(|e| panic!("{e}"));
+        for strategy in [Strategy::Bsdf, Strategy::Light, Strategy::Mis] {
+            let image = film(&scene, &Settings { spp: 64, strategy, ..settings([8, 8]) });
+            let lit = image.pixels().filter(|&[x, y]| image.mean(x, y) != [0.0; 3]).count();
+            assert_eq!(lit, 0, "{lamp}, {strategy:?}");
+        }
+    }
+}
+
+/// The triangles of a lamp that adjoin the one that light is drawn from do not hide it, however coarse the numbers are.
+#[test]
+fn lamps_far_from_the_origin() {
+    for lamp in FAR_LAMPS {
+        strategies_agree(lamp, &parse(&far_away(&format!("[[shape]]\n{lamp}\nemission = 4"))));
+    }
+    // Many small triangles, alone and in instances.
+    let cells = 16;
+    let at = |i: u32| (f64::from(i) / f64::from(cells) * 20.0 - 10.0) as f32;
+    for copies in [1, 16] {
+        let mut scene = parse(&far_away("[[shape]]\ntype = 'quad'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\nemission = 4"));
+        let mut mesh = desc::Mesh::default();
+        for k in 0..(cells + 1) * (cells + 1) {
+            mesh.positions.push(glam::Vec3::new(at(k % (cells + 1)), 0.0, at(k / (cells + 1))));
+        }
+        for k in 0..cells * cells {
+            let corner = k / cells * (cells + 1) + k % cells;
+            let [a, b, c, d] = [corner, corner + 1, corner + cells + 2, corner + cells + 1];
+            mesh.indices.extend([[a, b, c], [a, c, d]]);
+        }
+        let lamp = scene.objects.last().expect("a lamp").shape;
+        scene.shapes[lamp] = desc::Shape::Mesh(mesh.into());
+        let object = scene.objects.pop().expect("a lamp");
+        for copy in 0..copies {
+            let place = glam::Vec3::new(1e6, 1e6 + 10.0, 1e6 + 20.0 * copy as f32);
+            let turn = glam::Quat::from_rotation_y(0.3 * copy as f32);
+            let to_world = glam::Mat4::from_rotation_translation(turn, place);
+            scene.objects.push(desc::Object { to_world, ..object.clone() });
+        }
+        strategies_agree(&format!("{copies} lamps of many triangles"), &scene);
+    }
+}

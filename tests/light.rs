@@ -4,7 +4,7 @@
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec3A, Vec4};
-use radianza::light::{Emitter, Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
+use radianza::light::{Choice, Emitter, Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
@@ -155,4 +155,30 @@ fn the_sky_and_its_sun_light_the_ground_together() {
         seen.push(e);
     }
     assert!(seen.z(exact).abs() < 4.5 && seen.standard_error() < 0.01 * exact, "{} is not {exact}", seen.mean());
+}
+
+/// More lights than the numbers of a sampler: each is chosen as often as its probability says.
+#[test]
+fn more_lights_than_numbers_of_24_bits() {
+    let n = (1 << 23) + 3;
+    // The last has as much as all others together.
+    let fluxes: Vec<f64> = (0..n).map(|i| if i == n - 1 { (n - 1) as f64 } else { 1.0 }).collect();
+    let choice = Choice::new(&[], &fluxes, 1.0);
+    let receiver = Receiver::anywhere(Vec3::ZERO);
+    assert!(!choice.is_empty());
+    let last = f64::from(choice.probability(&receiver, n as u32 - 1));
+    assert!((last - 0.5).abs() < 0.01, "{last}");
+    let (mut rng, mut chosen) = (Pcg64Mcg::new(7), [0.0; 9]);
+    let draws = 200_000;
+    for _ in 0..draws {
+        let u = [rng.random(), rng.random()];
+        let (light, probability) = choice.choose(&receiver, rng.random(), u).expect("a light");
+        assert_eq!(probability, choice.probability(&receiver, light));
+        assert!(probability > 0.0);
+        // Eighths of the weak ones, and the strong one.
+        chosen[if light == n as u32 - 1 { 8 } else { (light >> 20).min(7) as usize }] += 1.0;
+    }
+    let expected: Vec<f64> =
+        (0..9).map(|k| f64::from(draws) * if k == 8 { last } else { (1.0 - last) / 8.0 }).collect();
+    assert!(radianza::stats::chi2_test(&chosen, &expected, 20.0).p > 1e-4, "{chosen:?}");
 }

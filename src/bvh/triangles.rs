@@ -135,10 +135,22 @@ impl TriangleBvh {
         Some(TriangleHit { t, u, v, triangle: self.ids[leaf][lane], slot })
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
+    /// Whether anything is hit in (0, `ray.t_max`) by a ray that meets neither the triangle that it leaves nor the one that it
+    /// leads to.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
-        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray, leaving)
+    pub fn occluded(&self, ray: &Ray, excluded: [Slot; 2]) -> bool {
+        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray, excluded)
+    }
+
+    /// A slot of each of `count` triangles; [`Slot::NONE`] of those that the tree does not hold.
+    pub fn slots(&self, count: usize) -> Vec<Slot> {
+        let mut slots = vec![Slot::NONE; count];
+        for (leaf, ids) in self.ids.iter().enumerate() {
+            for (lane, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NONE) {
+                slots[id as usize] = Slot::new(leaf as u32, lane as u32);
+            }
+        }
+        slots
     }
 
     /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.

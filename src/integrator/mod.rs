@@ -148,7 +148,7 @@ pub fn direct_light<O: Observer>(
     const NOTHING: (Spectrum, Spectrum, u32) = (Spectrum::ZERO, Spectrum::ZERO, 0);
     let scene = method.scene;
     let receiver = shading.receiver(vertex);
-    let Some((_, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
+    let Some((index, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
     // f |cos θ|, of what strayed too, and the density of the other sampler.
     let wi = shading.frame.to_local(light.wi);
     let (mut f, mut specular, mut pdf) = (Spectrum::ZERO, Spectrum::ZERO, shading.stray_pdf(vertex, light.wi));
@@ -172,7 +172,7 @@ pub fn direct_light<O: Observer>(
     }
     watch.ray();
     let inside = sides.towards(vertex, light.wi);
-    let seen = scene.visibility(vertex, &light, inside, most_sheets);
+    let seen = scene.visibility(vertex, index, &light, inside, most_sheets);
     if seen.share.is_black() {
         return NOTHING;
     }

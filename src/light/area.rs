@@ -1,4 +1,4 @@
-//! From density over area to density over solid angle, and where shadow rays end.
+//! How a point of a surface is seen: densities over area and solid angle, planes seen edge-on, where shadow rays end.
 
 use crate::math::UNIT_ROUNDOFF;
 use glam::Vec3A;
@@ -32,14 +32,23 @@ impl Sight {
         area_pdf * self.distance * self.distance / self.cos.abs()
     }
 
-    /// Where a shadow ray may end: before it meets the light's own surface, whichever way its origin, its direction
-    /// and the surface were rounded. Shifting any of them by δ along the light's normal moves the hit by δ/|cos θ|
-    /// along the ray. δ counts the offset of the origin and the error of a point interpolated in a triangle, 16 ulp
-    /// of either point, and 4 ulp of the distance for the direction.
+    /// The point again, unless the reference point lies in its tangent plane as far as rounding can tell: there the cosine,
+    /// and with it the density, is noise.
     #[inline]
-    pub(super) fn shadow_end(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
-        let coordinates = (reference.abs() + p.abs()).dot(ng.abs());
-        let delta = UNIT_ROUNDOFF * (16.0 * coordinates + 4.0 * self.distance);
-        (self.distance - delta / self.cos.abs()).max(0.0)
+    pub(super) fn off_plane(self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> Option<Self> {
+        (self.distance * self.cos.abs() > in_plane(reference, p, ng)).then_some(self)
     }
+
+    /// By how much a shadow ray ends before the point, which lies off the surface by up to `error` along the normal. So much,
+    /// and 8 u of the distance for the direction and the length of the ray, moves the hit by 1/|cos θ| of it.
+    #[inline]
+    pub(super) fn margin(&self, error: f32) -> f32 {
+        (error + 8.0 * UNIT_ROUNDOFF * self.distance) / self.cos.abs()
+    }
+}
+
+/// Height over the plane through `p` up to which `reference` may lie in it: 16 u of either, as far as rounding moves a hit.
+#[inline]
+pub(super) fn in_plane(reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
+    16.0 * UNIT_ROUNDOFF * (reference.abs() + p.abs()).dot(ng.abs())
 }

@@ -24,7 +24,7 @@ impl DirectionalLight {
     #[inline]
     pub fn sample(&self) -> Option<LightSample> {
         let (wi, le) = (-self.direction, self.irradiance);
-        (!le.is_black()).then_some(LightSample { wi, distance: f32::INFINITY, le, pdf: Pdf::Discrete(1.0) })
+        (!le.is_black()).then_some(LightSample::from_infinity(wi, le, Pdf::Discrete(1.0)))
     }
 
     /// Φ = E π R² through the disk that a scene of radius R shows to it.

@@ -92,7 +92,7 @@ impl Environment {
         };
         let wi = (self.to_world * local).into();
         let pdf = Pdf::SolidAngle(pdf);
-        (!le.is_black()).then_some(LightSample { wi, distance: f32::INFINITY, le, pdf })
+        (!le.is_black()).then_some(LightSample::from_infinity(wi, le, pdf))
     }
 
     /// ∫ Lₑ dω over the sphere \[W/m²\].

@@ -54,15 +54,26 @@ use tree::LightBounds;
 pub struct LightSample {
     /// Direction from the point to the light, unit, world space.
     pub wi: Vec3A,
-    /// Where a shadow ray along `wi` may end \[m\]: short of the light by the error bound of its distance, so that the
-    /// light's own surface is not met; infinite for light from infinity.
+    /// How far it is to the point of the light \[m\]; infinite for light from infinity.
     pub distance: f32,
+    /// The point of the light; of no meaning for light from infinity.
+    pub p: Vec3A,
+    /// By how much a shadow ray ends short of that \[m\], so that it does not meet the neighbours of the light's primitive,
+    /// with which that shares its edges: rounding moves the point off the surface.
+    pub margin: f32,
     /// Arriving radiance \[W·sr⁻¹·m⁻²\], of a surface with holes times its coverage; for delta lights irradiance
     /// perpendicular to `wi` \[W/m²\].
     pub le: Spectrum,
     /// Density over solid angle at the point, or the probability of a delta light; the choice among lights included
     /// where the sample was drawn from all of them.
     pub pdf: Pdf,
+}
+
+impl LightSample {
+    #[inline]
+    fn from_infinity(wi: Vec3A, le: Spectrum, pdf: Pdf) -> Self {
+        Self { wi, distance: f32::INFINITY, p: Vec3A::ZERO, margin: 0.0, le, pdf }
+    }
 }
 
 /// A source of light. The large ones are boxed, so that a million emissive triangles stay compact.

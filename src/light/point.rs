@@ -56,5 +56,6 @@ pub(super) fn sample_position(
         return None;
     }
     let le = intensity(-wi) * ((1.0 - sqr(sqr(distance / range))).max(0.0) / distance2);
-    (!le.is_black()).then_some(LightSample { wi, distance, le, pdf: Pdf::Discrete(1.0) })
+    let pdf = Pdf::Discrete(1.0);
+    (!le.is_black()).then_some(LightSample { wi, distance, p: position, margin: 0.0, le, pdf })
 }

@@ -4,7 +4,7 @@ use super::area::Sight;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample};
 use crate::bsdf::Pdf;
-use crate::math::Frame;
+use crate::math::{Frame, UNIT_ROUNDOFF};
 use crate::shape::{PlacedQuadric, Quadric};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -59,13 +59,18 @@ impl QuadricLight {
         };
 
         let surface = self.shape.surface_at(&point, !self.emitter.is_uniform(false));
-        let sight = Sight::new(reference, surface.p, surface.ng)?;
+        let mut sight = Sight::new(reference, surface.p, surface.ng)?;
+        if cone_pdf.is_none() {
+            sight = sight.off_plane(reference, surface.p, surface.ng)?;
+        }
         let area_pdf = || (1.0 / (self.shape.quadric.area() * self.shape.area_scale(point.n))) as f32;
         let pdf = cone_pdf.unwrap_or_else(|| sight.solid_angle_pdf(area_pdf()));
         let le = self.emitter.mean_le(&surface.uv, Vec4::ONE, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
             wi: sight.wi,
-            distance: sight.shadow_end(reference, surface.p, surface.ng),
+            distance: sight.distance,
+            p: surface.p,
+            margin: sight.margin(surface.p_error.dot(surface.ng.abs())),
             le,
             pdf: Pdf::SolidAngle(pdf),
         })
@@ -81,7 +86,8 @@ impl QuadricLight {
             }
             None => {
                 let area = self.shape.quadric.area() * self.shape.area_scale_world(ng.as_dvec3());
-                Sight::new(reference, p, ng).map_or(0.0, |sight| sight.solid_angle_pdf((1.0 / area) as f32))
+                let sight = Sight::new(reference, p, ng).and_then(|sight| sight.off_plane(reference, p, ng));
+                sight.map_or(0.0, |sight| sight.solid_angle_pdf((1.0 / area) as f32))
             }
         }
     }
@@ -105,16 +111,18 @@ impl QuadricLight {
         }
     }
 
-    /// The sphere as seen from `reference`, with its radius; `None` from inside, and for what is no sphere.
+    /// The sphere as seen from `reference`, with its radius; `None` from inside, from the surface as far as rounding can
+    /// tell, and for what is no sphere.
     fn cap(&self, reference: Vec3A) -> Option<(Cap, f64)> {
         let (center, r) = self.sphere?;
+        let rounding = 16.0 * f64::from(UNIT_ROUNDOFF) * (center.abs() + reference.abs().as_dvec3()).element_sum();
         let to = center - reference.as_dvec3();
         let distance = to.length();
         // sin θmax = r/d; 1 − cos θmax = sin²/(1 + cos) keeps its precision from afar.
         let tangent2 = (distance - r) * (distance + r);
         let (sin2, cos) = ((r / distance).powi(2), tangent2.max(0.0).sqrt() / distance);
         let one_minus_cos = (sin2 / (1.0 + cos)) as f32;
-        (tangent2 > 0.0 && one_minus_cos > 0.0)
+        (distance - r > rounding && one_minus_cos > 0.0)
             .then_some((Cap { axis: to / distance, distance, tangent2, one_minus_cos }, r))
     }
 }

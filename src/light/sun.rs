@@ -38,7 +38,7 @@ impl SunLight {
     pub fn sample(&self, u: [f32; 2]) -> Option<LightSample> {
         let wi = self.frame.to_world(uniform_cone(u, self.one_minus_cos)).normalize();
         let pdf = Pdf::SolidAngle(uniform_cone_pdf(self.one_minus_cos));
-        (!self.radiance.is_black()).then_some(LightSample { wi, distance: f32::INFINITY, le: self.radiance, pdf })
+        (!self.radiance.is_black()).then_some(LightSample::from_infinity(wi, self.radiance, pdf))
     }
 
     /// Lₑ that arrives from the unit vector `wi`.

@@ -1,11 +1,11 @@
 //! Emissive triangle.
 
-use super::area::Sight;
+use super::area::{Sight, in_plane};
 use super::cells::Cells;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample, SphericalTriangle};
 use crate::bsdf::Pdf;
-use crate::math::Ray;
+use crate::math::{Ray, UNIT_ROUNDOFF};
 use crate::shape::{
     Surface, TriangleAttributes, interpolate, intersect_triangle, triangle_area, triangle_normal, triangle_surface,
 };
@@ -36,6 +36,8 @@ pub struct TriangleLight {
     centroid: Vec3A,
     /// Square of the distance from the centroid within which it is sampled by solid angle.
     near2: f32,
+    /// How far rounding moves a point of it along the normal, at most.
+    error: f32,
     /// How it emits.
     pub emitter: Emitter,
     /// Texture coordinates and colours, where the emission or the coverage depends on them.
@@ -70,11 +72,19 @@ impl TriangleLight {
             area,
             centroid,
             near2: NEAR * NEAR * radius2,
+            error: UNIT_ROUNDOFF * (p.iter().fold(Vec3A::ZERO, |m, p| m.max(p.abs())).dot(front.abs()) + 8.0 * radius2.sqrt()),
             attributes: is_pictured.then(|| Box::new(*attributes)),
             emitter,
             flip,
             picture: None,
         })
+    }
+
+    /// Of a triangle that rays meet up to `error` away from where its vertices say, as in an instance of a mesh.
+    #[must_use]
+    pub fn with_error(mut self, error: Vec3A) -> Self {
+        self.error += error.dot(self.ng.abs());
+        self
     }
 
     /// Whether the emission changes over the triangle.
@@ -100,59 +110,59 @@ impl TriangleLight {
     /// Draws a point of the triangle: by solid angle from near, by area from afar; or by how brightly its parts shine.
     #[inline(always)]
     pub fn sample(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
-        // Nothing is emitted to the back.
-        let front = self.ng.dot(reference - self.p[0]) > 0.0;
-        if !self.emitter.emits(front) {
+        if !self.is_seen(reference) {
             return None;
         }
         if self.picture.is_some() || self.is_near(reference) {
             return self.sample_apart(reference, u, textures);
         }
         let [_, v, w] = uniform_triangle(u);
-        let (sight, end) = self.sight(reference, [v, w])?;
-        self.drawn([v, w], &sight, end, sight.solid_angle_pdf(1.0 / self.area), textures)
+        let (sight, p) = self.sight(reference, [v, w])?;
+        self.drawn([v, w], &sight, p, sight.solid_angle_pdf(1.0 / self.area), textures)
     }
 
     /// The same with all choices, apart from those without: their numbers need not pass through memory.
     #[inline(never)]
     fn sample_apart(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
-        let (weights, sight, end, pdf) = match self.cells() {
+        let (weights, sight, p, pdf) = match self.cells() {
             None => self.sample_plain(reference, u)?,
             Some(cells) if u[0] < BY_CELL => {
                 let weights = cells.sample([to_unit(u[0] / BY_CELL), u[1]]);
-                let (sight, end) = self.sight(reference, weights)?;
-                (weights, sight, end, self.pdf_plain(reference, &sight))
+                let (sight, p) = self.sight(reference, weights)?;
+                (weights, sight, p, self.pdf_plain(reference, &sight))
             }
             Some(_) => self.sample_plain(reference, [to_unit((u[0] - BY_CELL) / (1.0 - BY_CELL)), u[1]])?,
         };
         let pdf = self.pdf_mixed(pdf, &sight, weights);
-        self.drawn(weights, &sight, end, pdf, textures)
+        self.drawn(weights, &sight, p, pdf, textures)
     }
 
     /// Light from the point with these weights.
     #[inline(always)]
-    fn drawn(&self, weights: [f32; 2], sight: &Sight, end: f32, pdf: f32, textures: &Textures) -> Option<LightSample> {
+    fn drawn(&self, weights: [f32; 2], sight: &Sight, p: Vec3A, pdf: f32, textures: &Textures) -> Option<LightSample> {
         let (uv, color) = self.appearance(weights);
         let le = self.emitter.mean_le(&uv, color, sight.cos, textures);
         (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
             wi: sight.wi,
-            distance: end,
+            distance: sight.distance,
+            p,
+            margin: sight.margin(self.error),
             le,
             pdf: Pdf::SolidAngle(pdf),
         })
     }
 
-    /// Weights of the second and third vertex, how the point is seen, where the shadow ray ends, density: by solid angle
-    /// from near, by area from afar.
-    fn sample_plain(&self, reference: Vec3A, u: [f32; 2]) -> Option<([f32; 2], Sight, f32, f32)> {
+    /// Weights of the second and third vertex, how the point is seen, the point, density: by solid angle from near, by area
+    /// from afar.
+    fn sample_plain(&self, reference: Vec3A, u: [f32; 2]) -> Option<([f32; 2], Sight, Vec3A, f32)> {
         if self.is_near(reference)
             && let Some(spherical) = SphericalTriangle::new(&self.p, reference)
         {
             return self.sample_spherical(&spherical, reference, u);
         }
         let [_, u, v] = uniform_triangle(u);
-        let (sight, end) = self.sight(reference, [u, v])?;
-        Some(([u, v], sight, end, sight.solid_angle_pdf(1.0 / self.area)))
+        let (sight, p) = self.sight(reference, [u, v])?;
+        Some(([u, v], sight, p, sight.solid_angle_pdf(1.0 / self.area)))
     }
 
     fn sample_spherical(
@@ -160,27 +170,40 @@ impl TriangleLight {
         spherical: &SphericalTriangle,
         reference: Vec3A,
         u: [f32; 2],
-    ) -> Option<([f32; 2], Sight, f32, f32)> {
+    ) -> Option<([f32; 2], Sight, Vec3A, f32)> {
         let w = spherical.sample(u);
         let (u, v, distance) = self.along(reference, w)?;
         let wi = w.as_vec3a();
         let sight = Sight { wi, distance, cos: -wi.dot(self.ng) };
-        let end = sight.shadow_end(reference, reference + wi * distance, self.ng);
-        Some(([u, v], sight, end, (1.0 / spherical.solid_angle()) as f32))
+        Some(([u, v], sight, self.point([u, v]), (1.0 / spherical.solid_angle()) as f32))
     }
 
-    /// How the point with these weights is seen, and where the shadow ray to it ends.
+    /// How the point with these weights is seen, and the point.
     #[inline(always)]
-    fn sight(&self, reference: Vec3A, [u, v]: [f32; 2]) -> Option<(Sight, f32)> {
-        let p = interpolate(self.p, u, v);
-        let sight = Sight::new(reference, p, self.ng)?;
-        Some((sight, sight.shadow_end(reference, p, self.ng)))
+    fn sight(&self, reference: Vec3A, weights: [f32; 2]) -> Option<(Sight, Vec3A)> {
+        let p = self.point(weights);
+        Some((Sight::new(reference, p, self.ng)?, p))
+    }
+
+    /// The point with these weights, to half a unit in the last place of its coordinates and 6 u of the edges.
+    #[inline(always)]
+    fn point(&self, [u, v]: [f32; 2]) -> Vec3A {
+        let [a, b, c] = self.p;
+        a + ((b - a) * u + (c - a) * v)
+    }
+
+    /// Whether it emits to the side on which the reference point lies. In its plane, as far as rounding can tell, nothing is
+    /// seen of it: its solid angle there would be 0 or 2π by chance.
+    #[inline(always)]
+    fn is_seen(&self, reference: Vec3A) -> bool {
+        let height = self.ng.dot(reference - self.p[0]);
+        self.emitter.emits(height > 0.0) && height.abs() > in_plane(reference, self.p[0], self.ng) + self.error
     }
 
     /// Density over solid angle of [`sample`](Self::sample) for its point `p`.
     #[inline]
     pub fn pdf(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> f32 {
-        let Some(sight) = Sight::new(reference, p, ng) else { return 0.0 };
+        let Some(sight) = Sight::new(reference, p, ng).filter(|_| self.is_seen(reference)) else { return 0.0 };
         let plain = self.pdf_plain(reference, &sight);
         if self.cells().is_none() { plain } else { self.pdf_mixed(plain, &sight, self.weights(p)) }
     }

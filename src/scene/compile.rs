@@ -1,6 +1,7 @@
 //! `desc::Scene` → [`Scene`].
 
-use super::geometry::{Geometry, Instance, Owner, Part, Prototype, corners};
+use super::geometry::{Departure, Geometry, Owner, Part, corners};
+use super::instance::{Instance, Prototype, map_error};
 use super::{Info, Media, Scene};
 use crate::bvh::{Quality, TriangleBvh};
 use crate::desc::{self, Error, Mesh, Object, Shape};
@@ -9,7 +10,7 @@ use crate::material::Material;
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric};
 use crate::texture::Textures;
-use glam::Affine3A;
+use glam::{Affine3A, Vec3A};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -53,6 +54,13 @@ impl Scene {
         };
         let lights = Lights::new(lights, (center, radius), &textures);
 
+        let mut primitives = vec![Departure::NOWHERE; lights.all().len()];
+        for (emitter, primitive) in emitters.iter().zip(geometry.emitters(emitters.len())) {
+            if let Some(light) = *emitter {
+                primitives[light as usize] = primitive;
+            }
+        }
+
         let [stored_triangles, triangles, instances, quadrics] = geometry.counts();
         let [mesh_bytes, bvh_bytes] = geometry.memory();
         let info = Info {
@@ -77,6 +85,7 @@ impl Scene {
             textures,
             lights,
             emitters,
+            primitives,
             cameras: desc.cameras.clone(),
             info,
         })
@@ -140,19 +149,21 @@ impl<'a> Builder<'a> {
         let flip = transform.mirrors() != object.reversed;
         match &self.desc.shapes[object.shape] {
             Shape::Mesh(mesh) => {
+                let uses = self.uses[object.shape];
+                let instanced = uses > 1 && uses * mesh.indices.len() > FEW_TRIANGLES;
                 let emitter = emitter.map(|emitter| {
                     let first = self.emitters.len() as u32;
                     for triangle in 0..mesh.indices.len() as u32 {
-                        let (p, attributes) = corners(mesh, triangle, true);
-                        let p = p.map(|p| transform.to_world.transform_point3(p));
+                        let (local, attributes) = corners(mesh, triangle, true);
+                        let p = local.map(|p| transform.to_world.transform_point3(p));
                         let light = TriangleLight::new(p, &attributes, flip, emitter.clone());
-                        self.emit(light.map(Light::Triangle));
+                        let error = if instanced { map_error(&transform, local, p[0].into()) } else { Vec3A::ZERO };
+                        self.emit(light.map(|light| Light::Triangle(light.with_error(error))));
                     }
                     first
                 });
                 let owner = Owner { material, emitter, charted: true };
-                let uses = self.uses[object.shape];
-                if uses == 1 || uses * mesh.indices.len() <= FEW_TRIANGLES {
+                if !instanced {
                     let mesh = to_world(mesh, &transform);
                     self.parts.push(Part { plain: false, mesh, owner, flip });
                 } else {

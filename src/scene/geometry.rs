@@ -1,12 +1,11 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
+use super::instance::{Instance, Prototype};
 use crate::bvh::{Aabb, BoxBvh, Quality, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
-use crate::math::{Ray, Transform, gamma};
-use crate::shape::{
-    PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, triangle_surface, with_attributes,
-};
-use glam::{Mat3A, Vec3, Vec3A, Vec4};
+use crate::math::Ray;
+use crate::shape::{PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, with_attributes};
+use glam::{Vec3, Vec4};
 use std::sync::Arc;
 
 /// Whose a surface is.
@@ -42,28 +41,6 @@ struct Origin {
     ng: Vec3,
 }
 
-/// A mesh that stands in several places, in object space.
-#[derive(Debug)]
-pub struct Prototype {
-    /// Object-space geometry.
-    pub mesh: Arc<Mesh>,
-    /// Its triangles.
-    pub bvh: TriangleBvh,
-}
-
-/// A prototype placed in the world.
-#[derive(Debug)]
-pub struct Instance {
-    /// Which prototype.
-    pub prototype: u32,
-    /// Where.
-    pub transform: Transform,
-    /// Whose it is.
-    pub owner: Owner,
-    /// The front is the side from which the vertices, in the world, run clockwise.
-    pub flip: bool,
-}
-
 /// Where a ray met the geometry.
 #[derive(Clone, Copy, Debug)]
 pub struct Hit {
@@ -78,7 +55,7 @@ pub struct Hit {
 /// Object of a hit on geometry that stands once.
 const WORLD: u32 = u32::MAX;
 
-/// The triangle that a ray leaves and cannot meet again: whose, and where its tree holds it.
+/// A primitive that a ray leaves and cannot meet again, or that it leads to: whose, and where its tree holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     object: u32,
@@ -86,8 +63,14 @@ pub struct Departure {
 }
 
 impl Departure {
-    /// Of rays that leave no triangle.
+    /// Of rays that leave no primitive.
     pub const NOWHERE: Self = Self { object: WORLD, slot: Slot::NONE };
+
+    /// It is a triangle, of the world or of an instance.
+    #[inline]
+    pub fn is_triangle(self) -> bool {
+        self.slot != Slot::NONE
+    }
 
     #[inline]
     fn from(self, object: u32) -> Slot {
@@ -181,26 +164,63 @@ impl Geometry {
         nearest
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`).
+    /// Whether anything is hit in (0, `ray.t_max`) on the way from one primitive to a point of another.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray, leaving: Departure) -> bool {
-        self.world.occluded(ray, leaving.from(WORLD))
-            || (!self.objects.is_empty() && self.occluded_by_object(ray, leaving))
+    pub fn occluded(&self, ray: &Ray, from: Departure, to: Departure) -> bool {
+        self.world.occluded(ray, [from.from(WORLD), to.from(WORLD)])
+            || (!self.objects.is_empty() && self.occluded_by_object(ray, from, to))
     }
 
     /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
     #[inline(never)]
-    fn occluded_by_object(&self, ray: &Ray, leaving: Departure) -> bool {
+    fn occluded_by_object(&self, ray: &Ray, from: Departure, to: Departure) -> bool {
         self.objects.traverse(ray, ray.t_max, |object, t_max| {
             match self.instances.get(object as usize) {
                 Some(instance) => {
                     let prototype = &self.prototypes[instance.prototype as usize];
-                    instance.occluded(prototype, ray, t_max, leaving.from(object))
+                    instance.occluded(prototype, ray, t_max, [from.from(object), to.from(object)])
                 }
-                None => self.quadrics[object as usize - self.instances.len()].0.intersect_before(ray, t_max).is_some(),
+                None => {
+                    let quadric = &self.quadrics[object as usize - self.instances.len()].0;
+                    match object == to.object {
+                        true => quadric.hides_own_point(ray, t_max),
+                        false => quadric.intersect_before(ray, t_max).is_some(),
+                    }
+                }
             }
             .then_some(0.0)
         })
+    }
+
+    /// The primitive of each emitter, as owners number them: the ends of shadow rays.
+    pub(super) fn emitters(&self, count: usize) -> Vec<Departure> {
+        let mut found = vec![Departure::NOWHERE; count];
+        let mut put = |owner: &Owner, object: u32, slots: &[Slot]| {
+            let Some(first) = owner.emitter else { return };
+            for (to, &slot) in found[first as usize..].iter_mut().zip(slots) {
+                *to = Departure { object, slot };
+            }
+        };
+        if self.parts.iter().any(|part| part.owner.emitter.is_some()) {
+            let slots = self.world.slots(self.origin.len());
+            let mut first = 0;
+            for part in &self.parts {
+                let next = first + part.mesh.indices.len();
+                put(&part.owner, WORLD, &slots[first..next]);
+                first = next;
+            }
+        }
+        let mut known: Vec<Option<Vec<Slot>>> = vec![None; self.prototypes.len()];
+        for (i, instance) in self.instances.iter().enumerate().filter(|(_, i)| i.owner.emitter.is_some()) {
+            let prototype = &self.prototypes[instance.prototype as usize];
+            let slots = known[instance.prototype as usize]
+                .get_or_insert_with(|| prototype.bvh.slots(prototype.mesh.indices.len()));
+            put(&instance.owner, i as u32, slots);
+        }
+        for (i, (_, owner)) in self.quadrics.iter().enumerate() {
+            put(owner, (self.instances.len() + i) as u32, &[Slot::NONE]);
+        }
+        found
     }
 
     /// Nearest hit of one instance or quadric in (0, `t_max`).
@@ -288,63 +308,6 @@ impl Owner {
     fn of_triangle(self, triangle: u32) -> Self {
         Self { emitter: self.emitter.map(|first| first + triangle), ..self }
     }
-}
-
-impl Instance {
-    /// The ray in object space, and how much of its parameter was skipped: its origin is rounded, and hits nearer than
-    /// that error are none, or the surface that the ray leaves could be met again (PBRT 4th ed., section 6.8.5).
-    #[inline]
-    fn ray(&self, ray: &Ray, t_max: f32) -> (Ray, f32) {
-        let m = &self.transform.to_object;
-        let o = m.transform_point3a(ray.o);
-        let d = m.transform_vector3a(ray.d);
-        let error = (abs(&m.matrix3) * ray.o.abs() + m.translation.abs()) * gamma(4);
-        let shift = d.abs().dot(error) / d.length_squared();
-        (Ray { o: o + d * shift, d, t_max: t_max - shift }, shift)
-    }
-
-    fn nearest(&self, prototype: &Prototype, ray: &Ray, t_max: f32, leaving: Slot) -> Option<TriangleHit> {
-        let (local, skipped) = self.ray(ray, t_max);
-        let mut hit = prototype.bvh.nearest(&local, leaving)?;
-        hit.t += skipped;
-        Some(hit)
-    }
-
-    fn occluded(&self, prototype: &Prototype, ray: &Ray, t_max: f32, leaving: Slot) -> bool {
-        prototype.bvh.occluded(&self.ray(ray, t_max).0, leaving)
-    }
-
-    fn bounds(&self, prototype: &Prototype) -> Aabb {
-        let m = &self.transform.to_world;
-        let local = prototype.bvh.bounds();
-        let world = Aabb::of(local.corners().map(|c| m.transform_point3(c)));
-        // The corners are rounded.
-        let reach =
-            (abs(&m.matrix3) * local.min.abs().max(local.max.abs()) + Vec3::from(m.translation).abs()) * gamma(4);
-        Aabb { min: world.min - reach, max: world.max + reach }
-    }
-
-    /// The surface, in the world, of a triangle of the prototype.
-    fn surface(&self, mesh: &Mesh, triangle: u32, u: f32, v: f32) -> Surface {
-        let m = &self.transform.to_world;
-        let (local, mut attributes) = corners(mesh, triangle, self.owner.charted);
-        let p = local.map(|p| m.transform_point3(p));
-        attributes.normals =
-            attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero().into()));
-        attributes.tangents = attributes.tangents.map(|t| t.map(|t| m.transform_vector3(t.truncate()).extend(t.w)));
-        let mut surface = triangle_surface(p, u, v, &attributes, self.flip);
-        // Errors of the map to the world, and of the map back that the next ray takes.
-        let reach = local.iter().fold(Vec3::ZERO, |r, p| r.max(p.abs()));
-        let outward = abs(&m.matrix3) * Vec3A::from(reach) + m.translation.abs();
-        let inverse = &self.transform.to_object;
-        let inward = abs(&inverse.matrix3) * surface.p.abs() + inverse.translation.abs();
-        surface.p_error += outward * gamma(4) + abs(&m.matrix3) * (inward * gamma(4));
-        surface
-    }
-}
-
-fn abs(m: &Mat3A) -> Mat3A {
-    Mat3A::from_cols(m.x_axis.abs(), m.y_axis.abs(), m.z_axis.abs())
 }
 
 /// Vertices of a triangle and what they carry; all but the normals only where it is to be `charted`.

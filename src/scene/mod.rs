@@ -3,6 +3,7 @@
 mod compile;
 mod geometry;
 mod info;
+mod instance;
 mod media;
 mod shading;
 
@@ -36,6 +37,8 @@ pub struct Scene {
     pub lights: Lights,
     /// Light of each emissive triangle and quadric; none where a triangle has no area in the world.
     emitters: Vec<Option<u32>>,
+    /// Primitive of each light; [`Departure::NOWHERE`] of those that have none.
+    primitives: Vec<Departure>,
     /// Cameras as written: the resolution decides how they become rays.
     pub cameras: Vec<desc::Camera>,
     /// What the materials enclose.
@@ -160,19 +163,33 @@ impl Scene {
         false
     }
 
-    /// How much of the light arrives at `vertex`, on its side where the interiors are `inside`: nothing or all, or
-    /// between where the way leads through holes and at most `most_sheets` smooth thin sheets, which do not bend it.
+    /// How much of what light number `index` sends arrives at `vertex`, on its side where the interiors are `inside`: nothing
+    /// or all, or between where the way leads through holes and at most `most_sheets` smooth thin sheets, which do not bend it.
     #[inline]
-    pub fn visibility(&self, vertex: &Vertex, light: &LightSample, inside: &Inside, most_sheets: u32) -> Seen {
-        let s = &vertex.surface;
-        let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
-        let mut ray = Ray { o, d: light.wi, t_max: light.distance };
+    pub fn visibility(
+        &self,
+        vertex: &Vertex,
+        index: u32,
+        light: &LightSample,
+        inside: &Inside,
+        most_sheets: u32,
+    ) -> Seen {
+        let target = self.primitives[index as usize];
+        // A triangle does not light itself.
+        if target.is_triangle() && target == vertex.departure {
+            return Seen::NOTHING;
+        }
+        let mut ray = shadow_ray(&vertex.surface, light);
         let looks_through = self.has_sheets && most_sheets > 0;
         if !self.has_holes && !looks_through && inside.is_empty() {
-            return if self.geometry.occluded(&ray, vertex.departure) { Seen::NOTHING } else { Seen::ALL };
+            return if self.geometry.occluded(&ray, vertex.departure, target) { Seen::NOTHING } else { Seen::ALL };
         }
         let (mut seen, mut inside, mut leaving) = (Seen::ALL, inside.clone(), vertex.departure);
         while let Some(hit) = self.geometry.nearest(&ray, leaving) {
+            // Triangles have one point on a ray.
+            if target.is_triangle() && hit.departure() == target {
+                break;
+            }
             let vertex = self.vertex(&ray, &hit);
             match self.media.hidden(&inside, &vertex) {
                 None => {
@@ -265,4 +282,17 @@ impl Scene {
         let passed = (o - ray.o).dot(ray.d) / ray.d.length_squared();
         Ray { o, d: ray.d, t_max: ray.t_max - passed }
     }
+}
+
+/// From off a surface to just before the point of a light: aimed at that point from where it begins, so that it ends there
+/// however far the origin was moved.
+#[inline]
+fn shadow_ray(s: &Surface, light: &LightSample) -> Ray {
+    let o = offset_origin(s.p, s.p_error, s.ng, light.wi);
+    if light.distance == f32::INFINITY {
+        return Ray::new(o, light.wi);
+    }
+    let to = light.p - o;
+    let distance = to.length();
+    Ray { o, d: to / distance, t_max: (distance - light.margin).max(0.0) }
 }

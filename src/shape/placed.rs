@@ -40,14 +40,8 @@ impl PlacedQuadric {
     /// (PBRT 4th ed., section 6.8.5); in f64 that is far below one step of an f32 origin, so nothing real is lost.
     #[inline]
     pub fn intersect_before(&self, ray: &Ray, t_max: f32) -> Option<f32> {
-        let (o, d) = self.ray_to_object(ray);
-        let o_error =
-            (self.to_object.matrix3.abs() * ray.o.as_dvec3().abs() + self.to_object.translation.abs()) * ROUNDING;
-        let t_min = d.abs().dot(o_error) / d.length_squared();
         // The end is compared after rounding: a ray cut at its own hit is open there.
-        let [near, far] = self.quadric.roots(o, d);
-        let (near, far) =
-            (if near > t_min { near as f32 } else { f32::NAN }, if far > t_min { far as f32 } else { f32::NAN });
+        let [near, far] = self.ahead(ray).map(|t| t as f32);
         if near < t_max {
             Some(near)
         } else if far < t_max {
@@ -55,6 +49,25 @@ impl PlacedQuadric {
         } else {
             None
         }
+    }
+
+    /// Whether it stands before the point of it that the ray leads to, at about `t`: the root nearest to that is the point, and
+    /// the other one hides it where it comes first.
+    #[inline]
+    pub fn hides_own_point(&self, ray: &Ray, t: f32) -> bool {
+        let [near, far] = self.ahead(ray);
+        // False where either is NaN.
+        (far - f64::from(t)).abs() < (near - f64::from(t)).abs()
+    }
+
+    /// Parameters of the points that count, ascending; NaN for those that there are not.
+    #[inline]
+    fn ahead(&self, ray: &Ray) -> [f64; 2] {
+        let (o, d) = self.ray_to_object(ray);
+        let o_error =
+            (self.to_object.matrix3.abs() * ray.o.as_dvec3().abs() + self.to_object.translation.abs()) * ROUNDING;
+        let t_min = d.abs().dot(o_error) / d.length_squared();
+        self.quadric.roots(o, d).map(|t| if t > t_min { t } else { f64::NAN })
     }
 
     /// The surface where `ray` meets it at `t`, in world space; texture coordinates and tangent only where it is to be

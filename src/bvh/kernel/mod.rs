@@ -132,17 +132,17 @@ pub(super) fn nearest(
     }
 }
 
-/// Whether anything is hit before the ray's end.
+/// Whether anything but the triangles at two slots is hit before the ray's end.
 #[inline]
-pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, leaving: Slot) -> bool {
+pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, excluded: [Slot; 2]) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray, leaving) },
+        Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray, excluded) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray, leaving) },
-        _ => portable::occluded(nodes, leaves, ray, leaving),
+        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray, excluded) },
+        _ => portable::occluded(nodes, leaves, ray, excluded),
     }
 }
 

@@ -71,15 +71,29 @@ pub(super) struct Shear {
     pub(super) axes: [usize; 3],
     /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
     pub(super) shear: [f32; 3],
-    /// Leaf that holds the triangle which the ray leaves, and the lanes of the others there, a bit each.
-    pub(super) own_leaf: u32,
+    /// The triangle that the ray leaves, and the one that it leads to.
+    pub(super) excluded: [Excluded; 2],
+}
+
+/// A triangle that a ray does not meet: the leaf that holds it, and the lanes of the others there, a bit each.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Excluded {
+    pub(super) leaf: u32,
     pub(super) others: u32,
 }
 
-impl Shear {
-    /// Of a ray that leaves the triangle at `leaving`.
+impl Excluded {
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, leaving: Slot) -> Self {
+    fn new(slot: Slot) -> Self {
+        let (leaf, lane) = slot.place();
+        Self { leaf: leaf as u32, others: !(1 << lane) }
+    }
+}
+
+impl Shear {
+    /// Of a ray that does not meet the triangles at these slots.
+    #[inline(always)]
+    pub(super) fn new(ray: &Ray, excluded: [Slot; 2]) -> Self {
         // By look-ups: branches on random directions would be guessed wrong.
         let (size, negative) = (ray.d.abs(), ray.d.is_negative_bitmask() as usize);
         let longest = size.cmpeq(size.zxy().max(size).max(size.yzx())).bitmask() as usize;
@@ -87,12 +101,10 @@ impl Shear {
         let [kx, ky, kz] = [0, 1, 2].map(|i| axes[i].min(2) as usize);
         let d: &[f32; 3] = ray.d.as_ref();
         let d_inv = 1.0 / d[kz];
-        let (own_leaf, own_lane) = leaving.place();
         Self {
             axes: [kx, ky, kz],
             shear: [d[kx] * d_inv, d[ky] * d_inv, -d_inv],
-            own_leaf: own_leaf as u32,
-            others: !(1 << own_lane),
+            excluded: [Excluded::new(excluded[0]), Excluded::new(excluded[1])],
         }
     }
 }

@@ -71,7 +71,11 @@ macro_rules! kernels {
             t_max: f32,
         ) -> (u32, [Lanes; 4]) {
             let leaf = &leaves[index as usize];
-            let others = if index == shear.own_leaf { shear.others } else { !0 };
+            let [left, sought] = shear.excluded;
+            let mut others = if index == left.leaf { left.others } else { !0 };
+            if !NEAREST && index == sought.leaf {
+                others &= sought.others;
+            }
             let o: &[f32; 3] = ray.o.as_ref();
             let [kx, ky, kz] = shear.axes.map(|axis| axis.min(2));
             let [sx, sy, sz] = shear.shear;
@@ -176,7 +180,7 @@ macro_rules! kernels {
             leaving: Slot,
             hit: &mut Found,
         ) -> bool {
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, leaving));
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, [leaving, Slot::NONE]));
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
@@ -264,8 +268,8 @@ macro_rules! kernels {
 
         /// Any hit; see [`super::occluded`].
         $(#[$isa])?
-        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, leaving: Slot) -> bool {
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, leaving));
+        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, excluded: [Slot; 2]) -> bool {
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, excluded));
             let (mut stack, mut size) = (Stack::new(), 0);
             let t_max = ray.t_max;
             let mut child = 0;
