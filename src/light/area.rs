@@ -32,11 +32,11 @@ impl Sight {
         area_pdf * self.distance * self.distance / self.cos.abs()
     }
 
-    /// The point again, unless the reference point lies in its tangent plane as far as rounding can tell: there the cosine,
-    /// and with it the density, is noise.
+    /// Whether the reference point lies off the tangent plane of the point as far as rounding can tell: in it the cosine, and
+    /// with that a density over area, is noise.
     #[inline]
-    pub(super) fn off_plane(self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> Option<Self> {
-        (self.distance * self.cos.abs() > in_plane(reference, p, ng)).then_some(self)
+    pub(super) fn is_off_plane(&self, reference: Vec3A, p: Vec3A, ng: Vec3A) -> bool {
+        self.distance * self.cos.abs() > in_plane(reference, p, ng)
     }
 
     /// By how much a shadow ray ends before the point, which lies off the surface by up to `error` along the normal. So much,

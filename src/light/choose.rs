@@ -5,9 +5,8 @@ use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use glam::{Vec2, Vec3, Vec3A, Vec4};
-use std::cell::OnceCell;
 
-/// Most look-ups into the textures of emissive triangles, all together.
+/// Most look-ups into the textures of emissive surfaces, all together.
 const LOOKUPS: usize = 1 << 24;
 
 /// The lights of a scene, one of which is asked at a time.
@@ -25,18 +24,11 @@ impl Lights {
     pub fn new(mut lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
         // A scene of one point, or of none, is still lit from infinity.
         let radius = if radius.is_finite() { radius.clamp(1e-12, 1e15) } else { 1.0 };
-        // Look at what triangles show, for a time that does not grow with their number.
-        let pictured = |light: &&mut Light| matches!(light, Light::Triangle(t) if t.is_pictured());
-        let lookups = LOOKUPS / lights.iter_mut().filter(pictured).count().max(1);
-        for light in &mut lights {
-            if let Light::Triangle(triangle) = light {
-                triangle.divide(textures, lookups);
-            }
-        }
+        // Look at what surfaces show, for a time that does not grow with their number.
+        let lookups = LOOKUPS / lights.iter().filter(|light| light.is_pictured()).count().max(1);
+        lights.iter_mut().for_each(|light| light.divide(textures, lookups));
 
-        let means: Vec<OnceCell<Vec4>> = vec![OnceCell::new(); textures.len()];
-        let mean = |texture: usize| *means[texture].get_or_init(|| textures.mean(texture));
-        let powers: Vec<Spectrum> = lights.iter().map(|light| light.power(radius, &mean)).collect();
+        let powers: Vec<Spectrum> = lights.iter().map(|light| light.power(radius)).collect();
         let is_environment = |i: &u32| lights[*i as usize].surrounds();
         let environments = (0..lights.len() as u32).filter(is_environment).collect();
         // A power that overflowed is a great one.

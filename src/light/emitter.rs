@@ -98,13 +98,10 @@ impl Emitter {
         }
     }
 
-    /// Flux \[W\] of an `area` of mean vertex colour `color`, Φ = π A Lₑ for each side, with the texture's mean taken
-    /// for the part of it that the surface shows, what a coat takes left out, and all there where the coverage varies.
-    pub fn power(&self, area: f32, color: Vec4, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+    /// Flux \[W\] of an `area` of mean vertex colour `color`, Φ = π A Lₑ for each side, as far as that is known without
+    /// textures, which may darken it.
+    pub fn power(&self, area: f32, color: Vec4) -> Spectrum {
         let mut le = self.factor;
-        if let Some(texture) = &self.texture {
-            le *= rgb(mean(texture.texture));
-        }
         if self.vertex_color {
             le *= rgb(color);
         }

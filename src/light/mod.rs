@@ -13,6 +13,7 @@ mod choose;
 mod directional;
 mod emitter;
 mod environment;
+mod grid;
 mod point;
 mod profile;
 mod quadric;
@@ -175,12 +176,30 @@ impl Light {
         }
     }
 
-    /// Radiant flux \[W\]; of light from infinity, what enters a sphere of `scene_radius`. `mean` is the average of a
-    /// texture ([`Textures::mean`], which is worth remembering: it looks at every pixel).
-    pub fn power(&self, scene_radius: f32, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+    /// Whether its surface emits more in some places than in others.
+    pub fn is_pictured(&self) -> bool {
         match self {
-            Self::Triangle(light) => light.power(mean),
-            Self::Quadric(light) => light.power(mean),
+            Self::Triangle(light) => light.is_pictured(),
+            Self::Quadric(light) => light.is_pictured(),
+            _ => false,
+        }
+    }
+
+    /// Finds the mean of what the surface shows, and its bright parts, in at most `lookups` look-ups.
+    pub fn divide(&mut self, textures: &Textures, lookups: usize) {
+        match self {
+            Self::Triangle(light) => light.divide(textures, lookups),
+            Self::Quadric(light) => light.divide(textures, lookups),
+            _ => {}
+        }
+    }
+
+    /// Radiant flux \[W\]; of light from infinity, what enters a sphere of `scene_radius`; of what surfaces show the mean,
+    /// once [`divide`](Self::divide) has looked.
+    pub fn power(&self, scene_radius: f32) -> Spectrum {
+        match self {
+            Self::Triangle(light) => light.power(),
+            Self::Quadric(light) => light.power(),
             Self::Point(light) => light.power(),
             Self::Spot(light) => light.power(),
             Self::Profile(light) => light.power(),

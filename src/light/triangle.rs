@@ -245,15 +245,14 @@ impl TriangleLight {
         [((d22 * s1 - d12 * s2) * inverse) as f32, ((d11 * s2 - d12 * s1) * inverse) as f32]
     }
 
-    /// Flux \[W\]; `mean` is the average of a texture, which stands in for the part that the triangle shows until that
-    /// is known.
-    pub fn power(&self, mean: &impl Fn(usize) -> Vec4) -> Spectrum {
+    /// Flux \[W\]; of what the triangle shows the mean, once [`divide`](Self::divide) has looked.
+    pub fn power(&self) -> Spectrum {
         if let Some(picture) = &self.picture {
             return self.emitter.flux(self.area, picture.mean);
         }
         let colors = self.attributes.as_ref().and_then(|a| a.colors);
         let color = colors.map_or(Vec4::ONE, |[a, b, c]| (a + b + c) / 3.0);
-        self.emitter.power(self.area, color, mean)
+        self.emitter.power(self.area, color)
     }
 
     /// Its box and the intensity L A along its normal; the flux of a side is π L A.

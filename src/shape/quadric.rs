@@ -196,6 +196,22 @@ impl Quadric {
             Self::Cylinder { height, .. } => self.project(DVec3::new(cos, sin, u0 * f64::from(height))),
         }
     }
+
+    /// The numbers in \[0, 1\]² by which [`sample_area`](Self::sample_area) draws a point.
+    pub fn area_coordinates(&self, &QuadricPoint { p, n }: &QuadricPoint) -> [f32; 2] {
+        match *self {
+            // (1 − cos θ)/2, which keeps its precision about the pole: sin²/2(1 + cos).
+            Self::Sphere { .. } => {
+                let sin2 = n.truncate().length_squared();
+                let u = if n.z > 0.0 { 0.5 * sin2 / (1.0 + n.z) } else { 0.5 * (1.0 - n.z) };
+                [u as f32, turn(n.truncate())]
+            }
+            Self::Disk { radius } => {
+                [(p.truncate().length() / f64::from(radius)).powi(2) as f32, turn(p.truncate())]
+            }
+            Self::Cylinder { height, .. } => [(p.z / f64::from(height)) as f32, turn(n.truncate())],
+        }
+    }
 }
 
 /// Roots of a t² + 2 b t + c, ascending, given its discriminant b² − ac; NaN for those that there are not.
