@@ -130,13 +130,15 @@ fn convex_lamps_do_not_light_themselves() {
             "type = 'quad'\ncorner = [-1, -1, 0.1]\nedge_u = [2, 0.2, 0]\nedge_v = [0, 2, 0.1]",
         ] {
             for sides in ["front", "both"] {
-                let text = format!("[[shape]]\n{shape}\nmaterial = '{material}'\nemission = 4\nemission_sides = '{sides}'");
+                let text =
+                    format!("[[shape]]\n{shape}\nmaterial = '{material}'\nemission = 4\nemission_sides = '{sides}'");
                 scenes.push((format!("{material} {shape}, {sides}"), parse(&close_up(&text))));
             }
         }
         // Meshes: flat triangles, and normals that make them round.
         for round in [false, true] {
-            let text = format!("[[shape]]\ntype = 'sphere'\nmaterial = '{material}'\nemission = 4\nemission_sides = 'both'");
+            let text =
+                format!("[[shape]]\ntype = 'sphere'\nmaterial = '{material}'\nemission = 4\nemission_sides = 'both'");
             let mut scene = parse(&close_up(&text));
             let (positions, indices) = common::closed_mesh(12, 1.0, glam::Vec3::ZERO);
             let normals = if round { positions.clone() } else { Vec::new() };
@@ -215,7 +217,9 @@ fn lamps_far_from_the_origin() {
     let cells = 16;
     let at = |i: u32| (f64::from(i) / f64::from(cells) * 20.0 - 10.0) as f32;
     for copies in [1, 16] {
-        let mut scene = parse(&far_away("[[shape]]\ntype = 'quad'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\nemission = 4"));
+        let mut scene = parse(&far_away(
+            "[[shape]]\ntype = 'quad'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\nemission = 4",
+        ));
         let mut mesh = desc::Mesh::default();
         for k in 0..(cells + 1) * (cells + 1) {
             mesh.positions.push(glam::Vec3::new(at(k % (cells + 1)), 0.0, at(k / (cells + 1))));

@@ -9,11 +9,13 @@ mod build;
 mod fragments;
 mod kernel;
 mod node;
+mod obstacle;
 mod triangles;
 
 pub use boxes::BoxBvh;
 pub use build::Quality;
 pub use kernel::Isa;
+pub use obstacle::{Obstacle, PASSAGES, Passages, Passing};
 pub use triangles::{Slot, TriangleBvh, TriangleHit};
 
 use glam::Vec3;

@@ -3,8 +3,9 @@
 use super::Aabb;
 use super::build::{Quality, build};
 use super::fragments::split;
-use super::kernel::{self, Found, Isa};
+use super::kernel::{self, Found, Isa, ShadowRay};
 use super::node::{NONE, Node, TriangleLeaf, WIDTH};
+use super::obstacle::{LeafPassages, Obstacle, Passages, Passing};
 use crate::math::Ray;
 use crate::shape::triangle_normal;
 use arrayvec::ArrayVec;
@@ -69,6 +70,8 @@ pub struct TriangleBvh {
     leaves: Vec<TriangleLeaf>,
     /// Triangle of each lane of each leaf.
     ids: Vec<[u32; WIDTH]>,
+    /// What light may pass in each leaf; empty where that is nothing.
+    passages: Vec<LeafPassages>,
     bounds: Aabb,
     isa: Isa,
 }
@@ -114,7 +117,20 @@ impl TriangleBvh {
         }
         let mut nodes = kernel::with_capacity(tree.nodes.len());
         nodes.extend_from_slice(&tree.nodes);
-        Self { leaves, ids, bounds, nodes, isa: Isa::in_use() }
+        Self { leaves, ids, passages: Vec::new(), bounds, nodes, isa: Isa::in_use() }
+    }
+
+    /// The same triangles, which light may pass for the reasons that `of` a triangle gives.
+    #[must_use]
+    pub fn with_passages(mut self, of: impl Fn(u32) -> Passages) -> Self {
+        let leaf = |ids: &[u32; WIDTH]| {
+            let mut leaf = LeafPassages::default();
+            let held = ids.iter().enumerate().filter(|(_, id)| **id != NONE);
+            held.for_each(|(lane, &id)| leaf.put(lane, of(id)));
+            leaf
+        };
+        self.passages = self.ids.iter().map(leaf).collect();
+        self
     }
 
     /// The same tree, traversed by another kernel; `None` where this CPU does not run it.
@@ -135,11 +151,21 @@ impl TriangleBvh {
         Some(TriangleHit { t, u, v, triangle: self.ids[leaf][lane], slot })
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`) by a ray that meets neither the triangle that it leaves nor the one that it
-    /// leads to.
+    /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray, excluded: [Slot; 2]) -> bool {
-        !self.nodes.is_empty() && kernel::occluded(self.isa, &self.nodes, &self.leaves, ray, excluded)
+    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
+        self.obstacle(ray, [leaving, Slot::NONE], Passing::NOTHING) != Obstacle::None
+    }
+
+    /// What is hit in (0, `ray.t_max`) by a ray that meets neither the triangle that it leaves nor the one that it leads to,
+    /// and passes some of the others: opaque ones are asked for first.
+    #[inline(always)]
+    pub fn obstacle(&self, ray: &Ray, excluded: [Slot; 2], passing: Passing) -> Obstacle {
+        if self.nodes.is_empty() {
+            return Obstacle::None;
+        }
+        let shadow = ShadowRay { ray, excluded, passing, passages: &self.passages };
+        kernel::obstacle(self.isa, &self.nodes, &self.leaves, &shadow)
     }
 
     /// A slot of each of `count` triangles; [`Slot::NONE`] of those that the tree does not hold.
@@ -167,6 +193,9 @@ impl TriangleBvh {
 
     /// Bytes of nodes and leaves.
     pub fn memory(&self) -> usize {
-        size_of_val(&self.nodes[..]) + size_of_val(&self.leaves[..]) + size_of_val(&self.ids[..])
+        size_of_val(&self.nodes[..])
+            + size_of_val(&self.leaves[..])
+            + size_of_val(&self.ids[..])
+            + size_of_val(&self.passages[..])
     }
 }

@@ -162,7 +162,9 @@ mod tests {
         }
         for (i, &w) in weights.iter().enumerate() {
             let p = counts[i] as f64 / (1u64 << alias.bits) as f64;
-            assert!((p - f64::from(alias.probability(i))).abs() <= 1e-7 * p && (p - w / total).abs() <= 1e-5 * w / total);
+            assert!(
+                (p - f64::from(alias.probability(i))).abs() <= 1e-7 * p && (p - w / total).abs() <= 1e-5 * w / total
+            );
         }
         // The middle of a column's lower part is its own.
         for i in [0, 1, 70_000, (1 << 17) + 1] {

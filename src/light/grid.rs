@@ -1,6 +1,5 @@
 //! A quadric divided by how brightly its parts shine.
 
-use crate::shape::Quadric;
 use crate::spectrum::Spectrum;
 use crate::warp::Table2;
 
@@ -9,7 +8,7 @@ const MOST: usize = 256;
 
 /// Cells of a quadric that have equal areas in its own space, drawn in proportion to what they emit in the world.
 ///
-/// They are the squares of a grid over the numbers that [`Quadric::sample_area`] maps to points without changing areas.
+/// They are the squares of a grid over the numbers that [`Quadric::sample_area`](crate::shape::Quadric::sample_area) maps to points without changing areas.
 #[derive(Clone, Debug)]
 pub(super) struct Grid(Table2);
 
@@ -17,7 +16,11 @@ impl Grid {
     /// Mean radiance over the surface, and cells as large as a step of what it shows, of which there are `steps` along an
     /// axis; at most `lookups` (at least 1) are made. `le` gives the radiance at a point drawn by these numbers, and how much
     /// of the world's area lies there. No cells where the brightest would be less than twice as bright as the mean.
-    pub(super) fn new(le: impl Fn([f32; 2]) -> (Spectrum, f64), steps: f32, lookups: usize) -> (Spectrum, Option<Self>) {
+    pub(super) fn new(
+        le: impl Fn([f32; 2]) -> (Spectrum, f64),
+        steps: f32,
+        lookups: usize,
+    ) -> (Spectrum, Option<Self>) {
         let most = lookups.isqrt().max(1);
         let n = (steps.ceil() as usize).clamp(1, MOST).min(most);
         let fine = ((1.5 * steps / n as f32).ceil() as usize).clamp(1, most / n);
@@ -56,6 +59,7 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::Quadric;
 
     /// Points drawn lie where it is bright, the mean is exact, and the numbers of a point are those that it was drawn by.
     #[test]

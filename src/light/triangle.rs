@@ -72,7 +72,8 @@ impl TriangleLight {
             area,
             centroid,
             near2: NEAR * NEAR * radius2,
-            error: UNIT_ROUNDOFF * (p.iter().fold(Vec3A::ZERO, |m, p| m.max(p.abs())).dot(front.abs()) + 8.0 * radius2.sqrt()),
+            error: UNIT_ROUNDOFF
+                * (p.iter().fold(Vec3A::ZERO, |m, p| m.max(p.abs())).dot(front.abs()) + 8.0 * radius2.sqrt()),
             attributes: is_pictured.then(|| Box::new(*attributes)),
             emitter,
             flip,

@@ -3,10 +3,10 @@
 use super::geometry::{Departure, Geometry, Owner, Part, corners};
 use super::instance::{Instance, Prototype, map_error};
 use super::{Info, Media, Scene};
-use crate::bvh::{Quality, TriangleBvh};
+use crate::bvh::{Passages, Quality, TriangleBvh};
 use crate::desc::{self, Error, Mesh, Object, Shape};
 use crate::light::{Emitter, Environment, Light, Lights, QuadricLight, TriangleLight};
-use crate::material::Material;
+use crate::material::{self, Material};
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Quadric};
 use crate::texture::Textures;
@@ -78,7 +78,6 @@ impl Scene {
         };
         Ok(Self {
             geometry,
-            has_sheets: compiled.iter().any(Material::is_sheet),
             has_holes: compiled.iter().any(Material::has_holes),
             media: Media::new(&materials),
             materials: compiled,
@@ -162,7 +161,7 @@ impl<'a> Builder<'a> {
                     }
                     first
                 });
-                let owner = Owner { material, emitter, charted: true };
+                let owner = Owner { material, emitter, charted: true, passages: 0 };
                 if !instanced {
                     let mesh = to_world(mesh, &transform);
                     self.parts.push(Part { plain: false, mesh, owner, flip });
@@ -182,7 +181,7 @@ impl<'a> Builder<'a> {
                         self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, emitter)))));
                         (self.emitters.len() - 1) as u32
                     });
-                    self.quadrics.push((placed, Owner { material, emitter, charted: true }));
+                    self.quadrics.push((placed, Owner { material, emitter, charted: true, passages: 0 }));
                 }
             }
         }
@@ -190,16 +189,22 @@ impl<'a> Builder<'a> {
     }
 
     /// Compiles the materials, and says of everything placed whether its own looks at texture coordinates, tangents and
-    /// colours: to find them takes as long as all else at a hit.
+    /// colours (to find them takes as long as all else at a hit), and why shadow rays may pass it.
     fn chart(&mut self) {
         self.compiled = self.materials.iter().map(Material::compile).collect();
-        let charted = |owner: &Owner| self.compiled[owner.material as usize].is_charted();
+        let look = |owner: &mut Owner| {
+            let (material, written) =
+                (&self.compiled[owner.material as usize], &self.materials[owner.material as usize]);
+            owner.charted = material.is_charted();
+            let reasons = [material.has_holes(), material.is_sheet(), material::interior(written).is_some()];
+            owner.passages = reasons.iter().enumerate().map(|(i, &reason)| Passages::from(reason) << i).sum();
+        };
         for part in &mut self.parts {
-            part.owner.charted = charted(&part.owner);
+            look(&mut part.owner);
             part.plain = part.mesh.normals.is_empty() && !(part.owner.charted && part.mesh.has_chart());
         }
-        self.instances.iter_mut().for_each(|i| i.owner.charted = charted(&i.owner));
-        self.quadrics.iter_mut().for_each(|(_, owner)| owner.charted = charted(owner));
+        self.instances.iter_mut().for_each(|i| look(&mut i.owner));
+        self.quadrics.iter_mut().for_each(|(_, owner)| look(owner));
     }
 
     /// Lists an emitter and, where it can emit, its light.

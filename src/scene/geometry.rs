@@ -1,7 +1,7 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
 use super::instance::{Instance, Prototype};
-use crate::bvh::{Aabb, BoxBvh, Quality, Slot, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, BoxBvh, Obstacle, Passages, Passing, Quality, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::Ray;
 use crate::shape::{PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, with_attributes};
@@ -17,6 +17,14 @@ pub struct Owner {
     pub emitter: Option<u32>,
     /// The material looks at texture coordinates, tangents or vertex colours.
     pub charted: bool,
+    /// Why a shadow ray may pass: the bits of [`Passages`] are those of [`passing`].
+    pub passages: Passages,
+}
+
+/// What a shadow ray may pass: holes, smooth thin sheets where it looks through them, surfaces of interiors within others.
+#[inline]
+pub(super) fn passing(sheets: bool, interiors: bool) -> Passing {
+    Passing::of([true, sheets, interiors, false])
 }
 
 /// A mesh that stands once, in world space.
@@ -130,6 +138,10 @@ impl Geometry {
             }));
         }
 
+        let passages = |triangle: u32| parts[origin[triangle as usize].part as usize].owner.passages;
+        let opaque = parts.iter().all(|part| part.owner.passages == 0);
+        let world = if opaque { world } else { world.with_passages(passages) };
+
         // Instances and quadrics in another.
         let boxes = instances.iter().map(|i| i.bounds(&prototypes[i.prototype as usize]));
         let boxes = boxes.chain(quadrics.iter().map(|(q, _)| {
@@ -164,32 +176,44 @@ impl Geometry {
         nearest
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`) on the way from one primitive to a point of another.
+    /// What is hit in (0, `ray.t_max`) on the way from one primitive to a point of another.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray, from: Departure, to: Departure) -> bool {
-        self.world.occluded(ray, [from.from(WORLD), to.from(WORLD)])
-            || (!self.objects.is_empty() && self.occluded_by_object(ray, from, to))
+    pub fn obstacle(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
+        let met = self.world.obstacle(ray, [from.from(WORLD), to.from(WORLD)], passing);
+        if met == Obstacle::Opaque || self.objects.is_empty() {
+            return met;
+        }
+        met.max(self.obstacle_of_objects(ray, from, to, passing))
     }
 
-    /// Whether an instance or a quadric is hit in (0, `ray.t_max`).
+    /// What of the instances and quadrics is hit in (0, `ray.t_max`).
     #[inline(never)]
-    fn occluded_by_object(&self, ray: &Ray, from: Departure, to: Departure) -> bool {
+    fn obstacle_of_objects(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
+        let mut met = Obstacle::None;
         self.objects.traverse(ray, ray.t_max, |object, t_max| {
-            match self.instances.get(object as usize) {
+            let (hit, owner) = match self.instances.get(object as usize) {
                 Some(instance) => {
                     let prototype = &self.prototypes[instance.prototype as usize];
-                    instance.occluded(prototype, ray, t_max, [from.from(object), to.from(object)])
+                    let hit = instance.occluded(prototype, ray, t_max, [from.from(object), to.from(object)]);
+                    (hit, &instance.owner)
                 }
                 None => {
-                    let quadric = &self.quadrics[object as usize - self.instances.len()].0;
-                    match object == to.object {
+                    let (quadric, owner) = &self.quadrics[object as usize - self.instances.len()];
+                    let hit = match object == to.object {
                         true => quadric.hides_own_point(ray, t_max),
                         false => quadric.intersect_before(ray, t_max).is_some(),
-                    }
+                    };
+                    (hit, owner)
                 }
-            }
-            .then_some(0.0)
-        })
+            };
+            let passed = hit && passing.passes(owner.passages);
+            met = met.max(if passed { Obstacle::Passable } else { Obstacle::None });
+            (hit && !passed).then(|| {
+                met = Obstacle::Opaque;
+                0.0
+            })
+        });
+        met
     }
 
     /// The primitive of each emitter, as owners number them: the ends of shadow rays.

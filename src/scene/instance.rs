@@ -1,7 +1,7 @@
 //! Meshes that stand in several places.
 
 use super::geometry::{Owner, corners};
-use crate::bvh::{Aabb, Slot, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, Obstacle, Passing, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{Surface, triangle_surface};
@@ -51,7 +51,7 @@ impl Instance {
     }
 
     pub(super) fn occluded(&self, prototype: &Prototype, ray: &Ray, t_max: f32, excluded: [Slot; 2]) -> bool {
-        prototype.bvh.occluded(&self.ray(ray, t_max).0, excluded)
+        prototype.bvh.obstacle(&self.ray(ray, t_max).0, excluded, Passing::NOTHING) != Obstacle::None
     }
 
     pub(super) fn bounds(&self, prototype: &Prototype) -> Aabb {

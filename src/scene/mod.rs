@@ -13,6 +13,7 @@ pub use media::{Interface, Media};
 pub use shading::Shading;
 
 use crate::bsdf::Bsdf;
+use crate::bvh::Obstacle;
 use crate::desc;
 use crate::light::{LightSample, Lights};
 use crate::material::Material;
@@ -21,7 +22,7 @@ use crate::medium::Inside;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
-use geometry::Owner;
+use geometry::{Owner, passing};
 use glam::Vec3A;
 
 /// A compiled scene.
@@ -43,10 +44,8 @@ pub struct Scene {
     pub cameras: Vec<desc::Camera>,
     /// What the materials enclose.
     pub media: Media,
-    /// Some material has holes, so that a shadow ray must look at what it meets.
+    /// Some material has holes, so that a ray must look at what it meets.
     has_holes: bool,
-    /// Some material may be looked through, likewise.
-    has_sheets: bool,
     info: Info,
 }
 
@@ -125,30 +124,20 @@ impl Scene {
         u: &mut impl FnMut() -> f32,
         vertex: &mut Vertex,
     ) -> bool {
-        if self.has_holes || !inside.is_empty() {
-            return self.meet_seen(ray, leaving, inside, u, vertex);
-        }
         let Some(hit) = self.geometry.nearest(ray, leaving) else { return false };
         match self.geometry.plain_surface(&hit) {
             Some((surface, owner)) => *vertex = self.vertex_of(ray, &hit, surface, owner),
             None => self.put_vertex(ray, &hit, vertex),
         }
-        true
+        let is_seen = !self.has_holes || !self.materials[vertex.material as usize].has_holes();
+        (is_seen && inside.is_empty()) || self.meet_seen(ray, inside, u, vertex)
     }
 
-    /// The same where not everything that is met is seen.
+    /// Goes on from a vertex that may not be seen to the first that is.
     #[inline(never)]
-    fn meet_seen(
-        &self,
-        ray: &Ray,
-        mut leaving: Departure,
-        inside: &mut Inside,
-        u: &mut impl FnMut() -> f32,
-        vertex: &mut Vertex,
-    ) -> bool {
+    fn meet_seen(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32, vertex: &mut Vertex) -> bool {
         let mut ray = *ray;
-        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
-            self.put_vertex(&ray, &hit, vertex);
+        loop {
             match self.media.hidden(inside, vertex) {
                 Some(across) => *inside = across,
                 None => {
@@ -158,9 +147,10 @@ impl Scene {
                     }
                 }
             }
-            (ray, leaving) = (self.beyond(&ray, vertex), vertex.departure);
+            ray = self.beyond(&ray, vertex);
+            let Some(hit) = self.geometry.nearest(&ray, vertex.departure) else { return false };
+            self.put_vertex(&ray, &hit, vertex);
         }
-        false
     }
 
     /// How much of what light number `index` sends arrives at `vertex`, on its side where the interiors are `inside`: nothing
@@ -179,12 +169,26 @@ impl Scene {
         if target.is_triangle() && target == vertex.departure {
             return Seen::NOTHING;
         }
-        let mut ray = shadow_ray(&vertex.surface, light);
-        let looks_through = self.has_sheets && most_sheets > 0;
-        if !self.has_holes && !looks_through && inside.is_empty() {
-            return if self.geometry.occluded(&ray, vertex.departure, target) { Seen::NOTHING } else { Seen::ALL };
+        let ray = shadow_ray(&vertex.surface, light);
+        let passing = passing(most_sheets > 0, !inside.is_empty());
+        match self.geometry.obstacle(&ray, vertex.departure, target, passing) {
+            Obstacle::None => Seen::ALL,
+            Obstacle::Opaque => Seen::NOTHING,
+            Obstacle::Passable => self.seen_through(ray, vertex.departure, target, inside, most_sheets),
         }
-        let (mut seen, mut inside, mut leaving) = (Seen::ALL, inside.clone(), vertex.departure);
+    }
+
+    /// What is left of light behind all that it may pass on its way.
+    #[inline(never)]
+    fn seen_through(
+        &self,
+        mut ray: Ray,
+        mut leaving: Departure,
+        target: Departure,
+        inside: &Inside,
+        most_sheets: u32,
+    ) -> Seen {
+        let (mut seen, mut inside) = (Seen::ALL, inside.clone());
         while let Some(hit) = self.geometry.nearest(&ray, leaving) {
             // Triangles have one point on a ray.
             if target.is_triangle() && hit.departure() == target {
@@ -195,7 +199,7 @@ impl Scene {
                 None => {
                     let coverage = self.coverage(&vertex);
                     let holes = Spectrum::splat(1.0 - coverage);
-                    let through = if looks_through && coverage > 0.0 { self.through(&vertex) } else { None };
+                    let through = if most_sheets > 0 && coverage > 0.0 { self.through(&vertex) } else { None };
                     seen.sheets += u32::from(through.is_some());
                     seen.share *= through.map_or(holes, |through| holes + through * coverage);
                     if seen.sheets > most_sheets || seen.share.is_black() {

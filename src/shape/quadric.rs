@@ -206,9 +206,7 @@ impl Quadric {
                 let u = if n.z > 0.0 { 0.5 * sin2 / (1.0 + n.z) } else { 0.5 * (1.0 - n.z) };
                 [u as f32, turn(n.truncate())]
             }
-            Self::Disk { radius } => {
-                [(p.truncate().length() / f64::from(radius)).powi(2) as f32, turn(p.truncate())]
-            }
+            Self::Disk { radius } => [(p.truncate().length() / f64::from(radius)).powi(2) as f32, turn(p.truncate())],
             Self::Cylinder { height, .. } => [(p.z / f64::from(height)) as f32, turn(n.truncate())],
         }
     }

@@ -23,6 +23,7 @@ pub(super) use ray::Slabs;
 pub(super) use stack::{Entry, Stack};
 
 use super::node::{Node, TriangleLeaf, WIDTH};
+use super::obstacle::{LeafPassages, Obstacle, Passing};
 use super::triangles::Slot;
 use crate::math::Ray;
 use glam::Vec4;
@@ -132,17 +133,29 @@ pub(super) fn nearest(
     }
 }
 
-/// Whether anything but the triangles at two slots is hit before the ray's end.
+/// A ray that only asks what is in its way.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ShadowRay<'a> {
+    pub(super) ray: &'a Ray,
+    /// It does not meet the triangles at these slots.
+    pub(super) excluded: [Slot; 2],
+    /// What it passes.
+    pub(super) passing: Passing,
+    /// What may be passed in each leaf; in those beyond nothing.
+    pub(super) passages: &'a [LeafPassages],
+}
+
+/// What is hit before the ray's end.
 #[inline]
-pub(super) fn occluded(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, excluded: [Slot; 2]) -> bool {
+pub(super) fn obstacle(isa: Isa, nodes: &[Node], leaves: &[TriangleLeaf], ray: &ShadowRay) -> Obstacle {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx2 => unsafe { avx2::occluded(nodes, leaves, ray, excluded) },
+        Isa::Avx2 => unsafe { avx2::obstacle(nodes, leaves, ray) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::occluded(nodes, leaves, ray, excluded) },
-        _ => portable::occluded(nodes, leaves, ray, excluded),
+        Isa::Avx512 => unsafe { avx512::obstacle(nodes, leaves, ray) },
+        _ => portable::obstacle(nodes, leaves, ray),
     }
 }
 

@@ -1,10 +1,10 @@
 //! The one text of the kernels, for a type `Lanes` of eight f32 and the attributes of its instruction set.
 
-/// `nearest` and `occluded` for the `Lanes` in scope.
+/// `nearest` and `obstacle` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
         use super::ray::{Shear, Slabs, plane_ahead};
-        use super::{Entry, Found, Stack};
+        use super::{Entry, Found, Obstacle, ShadowRay, Stack};
         use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::Slot;
         use crate::math::Ray;
@@ -266,28 +266,34 @@ macro_rules! kernels {
             }
         }
 
-        /// Any hit; see [`super::occluded`].
+        /// Any hit of what is opaque, else of what may be passed; see [`super::obstacle`].
         $(#[$isa])?
-        pub(super) fn occluded(nodes: &[Node], leaves: &[TriangleLeaf], ray: &Ray, excluded: [Slot; 2]) -> bool {
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, excluded));
+        pub(super) fn obstacle(nodes: &[Node], leaves: &[TriangleLeaf], shadow: &ShadowRay) -> Obstacle {
+            let ray = shadow.ray;
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, shadow.excluded));
             let (mut stack, mut size) = (Stack::new(), 0);
             let t_max = ray.t_max;
-            let mut child = 0;
+            let (mut child, mut met) = (0, Obstacle::None);
             loop {
                 if child & LEAF != 0 {
-                    if triangles::<false>(leaves, child & !LEAF, ray, shear, t_max).0 != 0 {
-                        return true;
+                    let hits = triangles::<false>(leaves, child & !LEAF, ray, shear, t_max).0;
+                    if hits != 0 {
+                        let passages = shadow.passages.get((child & !LEAF) as usize).copied().unwrap_or_default();
+                        if hits & !shadow.passing.lanes(passages) != 0 {
+                            return Obstacle::Opaque;
+                        }
+                        met = Obstacle::Passable;
                     }
                 } else {
                     // Go on to the last child that is met, and keep the others.
                     let node = &nodes[child as usize];
-                    let (mut met, _) = boxes(node, slabs, t_max);
-                    if met != 0 {
+                    let (mut lanes, _) = boxes(node, slabs, t_max);
+                    if lanes != 0 {
                         loop {
-                            let lane = met.trailing_zeros() as usize & 7;
-                            met &= met - 1;
+                            let lane = lanes.trailing_zeros() as usize & 7;
+                            lanes &= lanes - 1;
                             fetch(nodes, leaves, node.child[lane]);
-                            if met == 0 {
+                            if lanes == 0 {
                                 child = node.child[lane];
                                 break;
                             }
@@ -297,7 +303,7 @@ macro_rules! kernels {
                     }
                 }
                 match stack.pop(&mut size) {
-                    None => return false,
+                    None => return met,
                     Some(next) => child = next.child(),
                 }
             }

@@ -12,7 +12,7 @@ use crate::texture::Textures;
 use crate::verify::measure::to_detect;
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::uniform_sphere;
-use glam::{Mat3, Vec3, Vec4};
+use glam::{Mat3, Vec3};
 use std::f64::consts::PI;
 
 pub(super) const L1: Topic = Topic {
