@@ -207,37 +207,56 @@ fn what_is_right_before_a_lamp_shadows() {
     }
 }
 
-/// The triangles of a lamp that adjoin the one that light is drawn from do not hide it, however coarse the numbers are.
+/// Lamps of some hundred metres.
 #[test]
 fn lamps_far_from_the_origin() {
-    for lamp in FAR_LAMPS {
-        strategies_agree(lamp, &parse(&far_away(&format!("[[shape]]\n{lamp}\nemission = 4"))));
+    for lamp in [
+        "type = 'quad'\ncorner = [999000, 1000900, 999000]\nedge_u = [2000, 100, 0]\nedge_v = [-100, 50, 2000]",
+        "type = 'disk'\ncenter = [1000000, 1000900, 1000000]\nnormal = [0.1, -1, 0]\nradius = 900",
+        "type = 'sphere'\ncenter = [1000000, 1001500, 1000000]\nradius = 600",
+        "type = 'cylinder'\nfrom = [999000, 1001500, 1000000]\nto = [1001000, 1001500, 1000000]\nradius = 500",
+    ] {
+        strategies_agree(lamp, &parse(&far_away(&format!("[[shape]]\n{lamp}\nemission = 4\nemission_sides = 'both'"))));
     }
-    // Many small triangles, alone and in instances.
-    let cells = 16;
+}
+
+/// The triangles of a lamp that adjoin the one that light is drawn from do not hide it, however coarse the numbers are: many
+/// give what two do, alone and in instances.
+#[test]
+fn neighbours_in_a_lamp_do_not_hide_it() {
+    let cells = 32;
     let at = |i: u32| (f64::from(i) / f64::from(cells) * 20.0 - 10.0) as f32;
-    for copies in [1, 16] {
-        let mut scene = parse(&far_away(
-            "[[shape]]\ntype = 'quad'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\nemission = 4",
-        ));
-        let mut mesh = desc::Mesh::default();
-        for k in 0..(cells + 1) * (cells + 1) {
-            mesh.positions.push(glam::Vec3::new(at(k % (cells + 1)), 0.0, at(k / (cells + 1))));
-        }
-        for k in 0..cells * cells {
-            let corner = k / cells * (cells + 1) + k % cells;
-            let [a, b, c, d] = [corner, corner + 1, corner + cells + 2, corner + cells + 1];
-            mesh.indices.extend([[a, b, c], [a, c, d]]);
-        }
-        let lamp = scene.objects.last().expect("a lamp").shape;
-        scene.shapes[lamp] = desc::Shape::Mesh(mesh.into());
-        let object = scene.objects.pop().expect("a lamp");
-        for copy in 0..copies {
-            let place = glam::Vec3::new(1e6, 1e6 + 10.0, 1e6 + 20.0 * copy as f32);
-            let turn = glam::Quat::from_rotation_y(0.3 * copy as f32);
-            let to_world = glam::Mat4::from_rotation_translation(turn, place);
-            scene.objects.push(desc::Object { to_world, ..object.clone() });
-        }
-        strategies_agree(&format!("{copies} lamps of many triangles"), &scene);
+    let mut many = desc::Mesh::default();
+    for k in 0..(cells + 1) * (cells + 1) {
+        many.positions.push(glam::Vec3::new(at(k % (cells + 1)), 0.0, at(k / (cells + 1))));
+    }
+    for k in 0..cells * cells {
+        let corner = k / cells * (cells + 1) + k % cells;
+        let [a, b, c, d] = [corner, corner + 1, corner + cells + 2, corner + cells + 1];
+        many.indices.extend([[a, b, c], [a, c, d]]);
+    }
+    let edge = |axis: glam::Vec3| axis * 20.0;
+    let two = desc::primitives::quad(glam::Vec3::new(-10.0, 0.0, -10.0), edge(glam::Vec3::X), edge(glam::Vec3::Z));
+    let text =
+        far_away("[[shape]]\ntype = 'quad'\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 0, 1]\nemission = 4");
+    for copies in [1, 4] {
+        let image = |mesh: &desc::Mesh, seed| {
+            let mut desc = parse(&text);
+            let object = desc.objects.pop().expect("a lamp");
+            desc.shapes[object.shape] = desc::Shape::Mesh(mesh.clone().into());
+            for copy in 0..copies {
+                let place = glam::Vec3::new(1e6, 1e6 + 10.0, 1e6 + 30.0 * copy as f32);
+                let turn =
+                    glam::Quat::from_rotation_y(0.3 * copy as f32) * glam::Quat::from_rotation_x(0.1 * copy as f32);
+                let to_world = glam::Mat4::from_rotation_translation(turn, place);
+                desc.objects.push(desc::Object { to_world, ..object.clone() });
+            }
+            let scene = Scene::compile(&desc).unwrap_or_else(|e| panic!("{e}"));
+            let settings = Settings { spp: 1024, replicate: 32, strategy: Strategy::Light, seed, ..settings([16, 16]) };
+            Estimated::from(&film(&scene, &settings))
+        };
+        let mut checks = Family::new(format!("{copies} lamps"));
+        agreement(&mut checks, "many triangles = two", &image(&many, 1), &image(&two, 2));
+        checks.assert();
     }
 }

@@ -5,8 +5,8 @@ use proptest::test_runner::RngSeed;
 use radianza::glam::{DVec2, DVec3, Mat4, Quat, Vec2, Vec3, Vec3A, Vec4};
 use radianza::math::{Frame, Ray, Transform, offset_origin};
 use radianza::shape::{
-    PlacedQuadric, Quadric, TriangleAttributes, interpolate, intersect_triangle, triangle_area, triangle_normal,
-    triangle_surface,
+    PlacedQuadric, Primitive, Quadric, Triangle, TriangleAttributes, interpolate, intersect_triangle, triangle_area,
+    triangle_normal, triangle_surface,
 };
 use radianza::stats::{Family, chi2_test};
 use radianza::warp::uniform_sphere;
@@ -322,4 +322,58 @@ fn area_sampling_is_uniform() {
         family.p(name, chi2_test(&counts, &expected, 5.0).p);
     }
     family.assert();
+}
+
+/// A step along ∂p/∂u changes u alone, one along ∂p/∂v changes v alone, on every primitive under every map.
+#[test]
+fn derivatives_are_those_of_the_texture_coordinates() {
+    let turned = Quat::from_axis_angle(Vec3::new(1.0, 2.0, -1.0).normalize(), 0.7);
+    let map = Mat4::from_scale_rotation_translation(Vec3::new(0.3, 1.0, -2.0), turned, Vec3::new(1.0, -2.0, 0.5));
+    let mut primitives = Vec::new();
+    for map in [Mat4::IDENTITY, map] {
+        let transform = Transform::from_mat4(map).expect("invertible");
+        let (sphere, disk) = (Quadric::Sphere { radius: 1.4 }, Quadric::Disk { radius: 0.8 });
+        for quadric in [sphere, disk, Quadric::Cylinder { radius: 0.6, height: 1.5 }] {
+            primitives.push(Primitive::Quadric(PlacedQuadric::new(quadric, transform, false)));
+        }
+        let p = [Vec3::ZERO, Vec3::new(2.0, 0.3, 0.0), Vec3::new(0.2, 1.5, 0.4)].map(|p| map.transform_point3(p));
+        let uv = [Vec2::new(0.1, 0.2), Vec2::new(0.9, 0.4), Vec2::new(0.3, 0.8)];
+        let attributes = TriangleAttributes { uv: [Some(uv), None], ..TriangleAttributes::default() };
+        primitives.push(Primitive::Triangle(Box::new(Triangle { p, attributes, flip: false })));
+    }
+    let (mut rng, mut compared) = (Pcg64Mcg::new(3), 0);
+    let mut direction = move || Vec3A::from(uniform_sphere([rng.random(), rng.random()]));
+    for primitive in &primitives {
+        let (min, max) = primitive.bounds();
+        let size = (max - min).length();
+        for _ in 0..400 {
+            // A line through the box, and where parallels to it beside the hit meet the surface.
+            let d = direction();
+            let ray = Ray::new(Vec3A::from(min * 0.5 + max * 0.5) + direction() * (0.3 * size) - d * (2.0 * size), d);
+            let Some(hit) = primitive.intersect(&ray, f32::INFINITY) else { continue };
+            let (at, found) = (primitive.surface(&ray, &hit, true), primitive.derivatives(&ray, &hit));
+            let Some(derivatives) = found.filter(|_| at.ng.dot(d).abs() > 0.3) else { continue };
+            // Not about the poles, where u turns fast.
+            if derivatives.dpdu.length() < 0.5 * size {
+                continue;
+            }
+            let sides = [(derivatives.dpdu, Vec2::X), (derivatives.dpdv, Vec2::Y)];
+            for (derivative, expected) in sides {
+                // Central differences over half a percent of the size: of curvature and rounding a thousandth is left.
+                let step = 0.0025 * size / derivative.length();
+                let uv = |sign: f32| {
+                    let ray = Ray::new(ray.o + derivative * (sign * step), d);
+                    Some(primitive.surface(&ray, &primitive.intersect(&ray, f32::INFINITY)?, true).uv[0])
+                };
+                let (Some(more), Some(less)) = (uv(1.0), uv(-1.0)) else { continue };
+                let change = (more - less) / (2.0 * step);
+                // Not across the seam of u.
+                if (more - less).length() < 0.5 {
+                    assert!(change.distance(expected) < 0.02, "{primitive:?}: {change} is not {expected}");
+                    compared += 1;
+                }
+            }
+        }
+    }
+    assert!(compared > 500, "{compared}");
 }

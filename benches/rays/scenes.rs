@@ -140,7 +140,7 @@ impl Meshed {
         let (mut bounces, mut shadows) = (Left::default(), Left::default());
         for ray in rays {
             let Some(hit) = bvh.nearest(ray, Slot::NONE) else { continue };
-            let corners = bvh.vertices(&hit);
+            let corners = bvh.vertices(hit.slot);
             let Some(n) = triangle_normal(corners.map(Vec3::from)).map(Vec3A::from) else { continue };
             let n = if n.dot(ray.d) > 0.0 { -n } else { n };
             let s = flat_surface(corners, hit.u, hit.v, n);

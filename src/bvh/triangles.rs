@@ -179,10 +179,17 @@ impl TriangleBvh {
         slots
     }
 
-    /// Vertices of the triangle of one of this tree's hits, from the leaf that has just been looked at.
+    /// The triangle at a slot of this tree.
     #[inline]
-    pub fn vertices(&self, hit: &TriangleHit) -> [Vec3A; 3] {
-        let (leaf, lane) = hit.slot.place();
+    pub fn triangle(&self, slot: Slot) -> u32 {
+        let (leaf, lane) = slot.place();
+        self.ids[leaf][lane]
+    }
+
+    /// Vertices of the triangle at a slot of this tree: after a hit from the leaf that has just been looked at.
+    #[inline]
+    pub fn vertices(&self, slot: Slot) -> [Vec3A; 3] {
+        let (leaf, lane) = slot.place();
         self.leaves[leaf].triangle(lane).map(Vec3A::from)
     }
 

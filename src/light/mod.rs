@@ -44,7 +44,7 @@ pub use triangle::TriangleLight;
 use crate::bsdf::Pdf;
 use crate::desc;
 use crate::math::Ray;
-use crate::shape::Surface;
+use crate::shape::{Primitive, Surface};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use glam::{Vec2, Vec3A, Vec4};
@@ -59,8 +59,8 @@ pub struct LightSample {
     pub distance: f32,
     /// The point of the light; of no meaning for light from infinity.
     pub p: Vec3A,
-    /// By how much a shadow ray ends short of that \[m\], so that it does not meet the neighbours of the light's primitive,
-    /// with which that shares its edges: rounding moves the point off the surface.
+    /// By how much a shadow ray ends short of that \[m\], so that it does not meet the neighbours of a triangle, which go on
+    /// where that ends: rounding moves the point off the surface. The light's own primitive is excluded from the ray.
     pub margin: f32,
     /// Arriving radiance \[W·sr⁻¹·m⁻²\], of a surface with holes times its coverage; for delta lights irradiance
     /// perpendicular to `wi` \[W/m²\].
@@ -224,12 +224,14 @@ impl Light {
     /// Nearest intersection of `ray` with the surface of this area light alone: what the tests, and anything else that
     /// has one light and no scene, trace.
     pub fn intersect(&self, ray: &Ray) -> Option<(f32, Surface)> {
+        self.primitive()?.meet(ray)
+    }
+
+    /// The surface of an area light.
+    pub fn primitive(&self) -> Option<Primitive> {
         match self {
-            Self::Triangle(light) => light.intersect(ray),
-            Self::Quadric(light) => {
-                let t = light.shape.intersect(ray)?;
-                Some((t, light.shape.surface(ray, t, true)))
-            }
+            Self::Triangle(light) => Some(light.primitive()),
+            Self::Quadric(light) => Some(Primitive::Quadric(light.shape)),
             Self::Point(_)
             | Self::Spot(_)
             | Self::Profile(_)

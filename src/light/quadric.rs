@@ -95,7 +95,8 @@ impl QuadricLight {
             wi: sight.wi,
             distance: sight.distance,
             p: surface.p,
-            margin: sight.margin(surface.p_error.dot(surface.ng.abs())),
+            // It has no neighbours that lie on.
+            margin: 0.0,
             le,
             pdf: Pdf::SolidAngle(pdf),
         })

@@ -5,10 +5,8 @@ use super::cells::Cells;
 use super::tree::LightBounds;
 use super::{Emitter, LightSample, SphericalTriangle};
 use crate::bsdf::Pdf;
-use crate::math::{Ray, UNIT_ROUNDOFF};
-use crate::shape::{
-    Surface, TriangleAttributes, interpolate, intersect_triangle, triangle_area, triangle_normal, triangle_surface,
-};
+use crate::math::UNIT_ROUNDOFF;
+use crate::shape::{Primitive, Triangle, TriangleAttributes, interpolate, triangle_area, triangle_normal};
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
 use crate::warp::to_unit;
@@ -264,11 +262,10 @@ impl TriangleLight {
         LightBounds::flat(a.min(b).min(c), a.max(b).max(c), self.ng, flux / (sides * f64::from(PI)), both)
     }
 
-    /// Where `ray` meets it.
-    pub fn intersect(&self, ray: &Ray) -> Option<(f32, Surface)> {
-        let hit = intersect_triangle(ray, self.p.map(Vec3::from))?;
+    /// Its surface.
+    pub fn primitive(&self) -> Primitive {
         let attributes = self.attributes.as_deref().copied().unwrap_or_default();
-        Some((hit.t, triangle_surface(self.p.map(Vec3::from), hit.u, hit.v, &attributes, self.flip)))
+        Primitive::Triangle(Box::new(Triangle::new(self.p, attributes, self.flip)))
     }
 
     /// The triangle on the sphere about `reference`, where it is sampled by solid angle.

@@ -1,14 +1,15 @@
 //! `desc::Scene` → [`Scene`].
 
-use super::geometry::{Departure, Geometry, Owner, Part, corners};
+use super::geometry::{Geometry, Owner, Part, corners};
 use super::instance::{Instance, Prototype, map_error};
+use super::object::{Departure, Object};
 use super::{Info, Media, Scene};
 use crate::bvh::{Passages, Quality, TriangleBvh};
-use crate::desc::{self, Error, Mesh, Object, Shape};
+use crate::desc::{self, Error, Mesh, Shape};
 use crate::light::{Emitter, Environment, Light, Lights, QuadricLight, TriangleLight};
 use crate::material::{self, Material};
 use crate::math::Transform;
-use crate::shape::{PlacedQuadric, Quadric};
+use crate::shape::{PlacedQuadric, Primitive, Quadric};
 use crate::texture::Textures;
 use glam::{Affine3A, Vec3A};
 use std::path::Path;
@@ -38,8 +39,8 @@ impl Scene {
             builder.place(object)?;
         }
         builder.chart();
-        let Builder { compiled, parts, prototypes, instances, quadrics, emitters, materials, mut lights, .. } = builder;
-        let geometry = Geometry::new(parts, prototypes, instances, quadrics, quality);
+        let Builder { compiled, parts, prototypes, objects, emitters, materials, mut lights, .. } = builder;
+        let geometry = Geometry::new(parts, prototypes, objects, quality);
 
         // Lights without a surface.
         lights.extend(desc.lights.iter().map(Light::from_desc));
@@ -105,8 +106,7 @@ struct Builder<'a> {
     prototype_of: Vec<Option<u32>>,
     /// Objects that place each shape.
     uses: Vec<usize>,
-    instances: Vec<Instance>,
-    quadrics: Vec<(PlacedQuadric, Owner)>,
+    objects: Vec<Object>,
     emitters: Vec<Option<u32>>,
     lights: Vec<Light>,
 }
@@ -129,14 +129,13 @@ impl<'a> Builder<'a> {
             prototypes: Vec::new(),
             prototype_of: vec![None; desc.shapes.len()],
             uses,
-            instances: Vec::new(),
-            quadrics: Vec::new(),
+            objects: Vec::new(),
             emitters: Vec::new(),
             lights: Vec::new(),
         }
     }
 
-    fn place(&mut self, object: &Object) -> Result<(), Error> {
+    fn place(&mut self, object: &desc::Object) -> Result<(), Error> {
         let transform = Transform::from_mat4(object.to_world).ok_or_else(|| {
             let file = self.desc.source.as_deref().unwrap_or(Path::new("scene"));
             let name = &object.name;
@@ -171,7 +170,7 @@ impl<'a> Builder<'a> {
                         self.prototypes.push(Prototype { mesh: mesh.clone(), bvh });
                         (self.prototypes.len() - 1) as u32
                     });
-                    self.instances.push(Instance { prototype, transform, owner, flip });
+                    self.objects.push(Object::Instance(Instance { prototype, transform, owner, flip }));
                 }
             }
             shape => {
@@ -181,7 +180,8 @@ impl<'a> Builder<'a> {
                         self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, emitter)))));
                         (self.emitters.len() - 1) as u32
                     });
-                    self.quadrics.push((placed, Owner { material, emitter, charted: true, passages: 0 }));
+                    let owner = Owner { material, emitter, charted: true, passages: 0 };
+                    self.objects.push(Object::Primitive(Primitive::Quadric(placed), owner));
                 }
             }
         }
@@ -203,8 +203,7 @@ impl<'a> Builder<'a> {
             look(&mut part.owner);
             part.plain = part.mesh.normals.is_empty() && !(part.owner.charted && part.mesh.has_chart());
         }
-        self.instances.iter_mut().for_each(|i| look(&mut i.owner));
-        self.quadrics.iter_mut().for_each(|(_, owner)| look(owner));
+        self.objects.iter_mut().for_each(|object| look(object.owner_mut()));
     }
 
     /// Lists an emitter and, where it can emit, its light.
@@ -214,7 +213,7 @@ impl<'a> Builder<'a> {
     }
 
     /// The object's material, with the object's own emission where it has one.
-    fn material(&mut self, object: &Object) -> u32 {
+    fn material(&mut self, object: &desc::Object) -> u32 {
         let Some(emission) = object.emission else { return object.material as u32 };
         let own = desc::Material { emission: Some(emission), ..self.materials[object.material].clone() };
         self.materials.push(own);

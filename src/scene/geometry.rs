@@ -1,10 +1,14 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
-use super::instance::{Instance, Prototype};
+use super::instance::Prototype;
+use super::object::{Departure, Hit, Object, WORLD};
 use crate::bvh::{Aabb, BoxBvh, Obstacle, Passages, Passing, Quality, Slot, TriangleBvh, TriangleHit};
 use crate::desc::Mesh;
 use crate::math::Ray;
-use crate::shape::{PlacedQuadric, Surface, TriangleAttributes, flat_surface, triangle_normal, with_attributes};
+use crate::shape::{
+    Derivatives, PrimitiveHit, Surface, TriangleAttributes, flat_surface, triangle_derivatives, triangle_normal,
+    with_attributes,
+};
 use glam::{Vec3, Vec4};
 use std::sync::Arc;
 
@@ -49,51 +53,6 @@ struct Origin {
     ng: Vec3,
 }
 
-/// Where a ray met the geometry.
-#[derive(Clone, Copy, Debug)]
-pub struct Hit {
-    /// Ray parameter.
-    pub t: f32,
-    /// The triangle of the world mesh, of the prototype, or nothing for a quadric.
-    triangle: TriangleHit,
-    /// Instance, or quadric behind all instances, or [`WORLD`].
-    object: u32,
-}
-
-/// Object of a hit on geometry that stands once.
-const WORLD: u32 = u32::MAX;
-
-/// A primitive that a ray leaves and cannot meet again, or that it leads to: whose, and where its tree holds it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Departure {
-    object: u32,
-    slot: Slot,
-}
-
-impl Departure {
-    /// Of rays that leave no primitive.
-    pub const NOWHERE: Self = Self { object: WORLD, slot: Slot::NONE };
-
-    /// It is a triangle, of the world or of an instance.
-    #[inline]
-    pub fn is_triangle(self) -> bool {
-        self.slot != Slot::NONE
-    }
-
-    #[inline]
-    fn from(self, object: u32) -> Slot {
-        if self.object == object { self.slot } else { Slot::NONE }
-    }
-}
-
-impl Hit {
-    /// Of the rays that leave the surface here.
-    #[inline]
-    pub fn departure(&self) -> Departure {
-        Departure { object: self.object, slot: self.triangle.slot }
-    }
-}
-
 /// All surfaces.
 #[derive(Debug)]
 pub struct Geometry {
@@ -102,20 +61,14 @@ pub struct Geometry {
     origin: Vec<Origin>,
     world: TriangleBvh,
     prototypes: Vec<Prototype>,
-    instances: Vec<Instance>,
-    quadrics: Vec<(PlacedQuadric, Owner)>,
-    objects: BoxBvh,
+    objects: Vec<Object>,
+    /// Of the objects.
+    tree: BoxBvh,
 }
 
 impl Geometry {
     /// Builds the hierarchies.
-    pub fn new(
-        parts: Vec<Part>,
-        prototypes: Vec<Prototype>,
-        instances: Vec<Instance>,
-        quadrics: Vec<(PlacedQuadric, Owner)>,
-        quality: Quality,
-    ) -> Self {
+    pub fn new(parts: Vec<Part>, prototypes: Vec<Prototype>, objects: Vec<Object>, quality: Quality) -> Self {
         // All parts in one tree.
         let world = match parts.as_slice() {
             [part] => TriangleBvh::build(&part.mesh.positions, &part.mesh.indices, quality),
@@ -142,21 +95,19 @@ impl Geometry {
         let opaque = parts.iter().all(|part| part.owner.passages == 0);
         let world = if opaque { world } else { world.with_passages(passages) };
 
-        // Instances and quadrics in another.
-        let boxes = instances.iter().map(|i| i.bounds(&prototypes[i.prototype as usize]));
-        let boxes = boxes.chain(quadrics.iter().map(|(q, _)| {
-            let (min, max) = q.bounds();
-            Aabb { min, max }
-        }));
-        let objects = BoxBvh::build(boxes.collect(), quality);
-        Self { parts, origin, world, prototypes, instances, quadrics, objects }
+        // Everything else in another.
+        let boxes = objects.iter().map(|object| object.bounds(&prototypes)).collect();
+        Self { parts, origin, world, prototypes, objects, tree: BoxBvh::build(boxes, quality) }
     }
 
     /// Nearest hit in (0, `ray.t_max`).
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
-        let nearest = self.world.nearest(ray, leaving.from(WORLD));
-        let nearest = nearest.map(|triangle| Hit { t: triangle.t, triangle, object: WORLD });
+        let nearest = self.world.nearest(ray, leaving.of(WORLD));
+        let nearest = nearest.map(|TriangleHit { t, u, v, slot, .. }| {
+            let primitive = Departure { object: WORLD, slot };
+            Hit { t, u, v, primitive }
+        });
         if self.objects.is_empty() {
             return nearest;
         }
@@ -164,12 +115,12 @@ impl Geometry {
         self.nearest_object(ray, t_max, leaving).or(nearest)
     }
 
-    /// Nearest hit of instances and quadrics in (0, `t_max`).
+    /// Nearest hit of the objects in (0, `t_max`).
     #[inline(never)]
     fn nearest_object(&self, ray: &Ray, t_max: f32, leaving: Departure) -> Option<Hit> {
         let mut nearest = None;
-        self.objects.traverse(ray, t_max, |object, t_max| {
-            let hit = self.object(object, ray, t_max, leaving)?;
+        self.tree.traverse(ray, t_max, |index, t_max| {
+            let hit = self.objects[index as usize].nearest(index, &self.prototypes, ray, t_max, leaving)?;
             nearest = Some(hit);
             Some(hit.t)
         });
@@ -179,41 +130,37 @@ impl Geometry {
     /// What is hit in (0, `ray.t_max`) on the way from one primitive to a point of another.
     #[inline(always)]
     pub fn obstacle(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
-        let met = self.world.obstacle(ray, [from.from(WORLD), to.from(WORLD)], passing);
+        let met = self.world.obstacle(ray, [from.of(WORLD), to.of(WORLD)], passing);
         if met == Obstacle::Opaque || self.objects.is_empty() {
             return met;
         }
         met.max(self.obstacle_of_objects(ray, from, to, passing))
     }
 
-    /// What of the instances and quadrics is hit in (0, `ray.t_max`).
+    /// What of the objects is hit in (0, `ray.t_max`).
     #[inline(never)]
     fn obstacle_of_objects(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
         let mut met = Obstacle::None;
-        self.objects.traverse(ray, ray.t_max, |object, t_max| {
-            let (hit, owner) = match self.instances.get(object as usize) {
-                Some(instance) => {
-                    let prototype = &self.prototypes[instance.prototype as usize];
-                    let hit = instance.occluded(prototype, ray, t_max, [from.from(object), to.from(object)]);
-                    (hit, &instance.owner)
-                }
-                None => {
-                    let (quadric, owner) = &self.quadrics[object as usize - self.instances.len()];
-                    let hit = match object == to.object {
-                        true => quadric.hides_own_point(ray, t_max),
-                        false => quadric.intersect_before(ray, t_max).is_some(),
-                    };
-                    (hit, owner)
-                }
-            };
-            let passed = hit && passing.passes(owner.passages);
-            met = met.max(if passed { Obstacle::Passable } else { Obstacle::None });
-            (hit && !passed).then(|| {
-                met = Obstacle::Opaque;
-                0.0
-            })
+        self.tree.traverse(ray, ray.t_max, |index, t_max| {
+            let object = &self.objects[index as usize];
+            if !object.is_between(index, &self.prototypes, ray, t_max, [from, to]) {
+                return None;
+            }
+            let passed = passing.passes(object.owner().passages);
+            met = if passed { Obstacle::Passable } else { Obstacle::Opaque };
+            (!passed).then_some(0.0)
         });
         met
+    }
+
+    /// Whether a hit of `ray`, which leads to a point of `target` at its end, is that point.
+    pub fn is_end(&self, ray: &Ray, hit: &Hit, target: Departure) -> bool {
+        hit.primitive == target
+            && match self.objects.get(target.object as usize) {
+                Some(Object::Primitive(primitive, _)) => !primitive.hides_own_point(ray, ray.t_max),
+                // A line meets a triangle once.
+                _ => target.is_triangle(),
+            }
     }
 
     /// The primitive of each emitter, as owners number them: the ends of shadow rays.
@@ -235,32 +182,18 @@ impl Geometry {
             }
         }
         let mut known: Vec<Option<Vec<Slot>>> = vec![None; self.prototypes.len()];
-        for (i, instance) in self.instances.iter().enumerate().filter(|(_, i)| i.owner.emitter.is_some()) {
-            let prototype = &self.prototypes[instance.prototype as usize];
-            let slots = known[instance.prototype as usize]
-                .get_or_insert_with(|| prototype.bvh.slots(prototype.mesh.indices.len()));
-            put(&instance.owner, i as u32, slots);
-        }
-        for (i, (_, owner)) in self.quadrics.iter().enumerate() {
-            put(owner, (self.instances.len() + i) as u32, &[Slot::NONE]);
+        for (i, object) in self.objects.iter().enumerate().filter(|(_, o)| o.owner().emitter.is_some()) {
+            match object {
+                Object::Instance(instance) => {
+                    let prototype = &self.prototypes[instance.prototype as usize];
+                    let slots = known[instance.prototype as usize]
+                        .get_or_insert_with(|| prototype.bvh.slots(prototype.mesh.indices.len()));
+                    put(&instance.owner, i as u32, slots);
+                }
+                Object::Primitive(_, owner) => put(owner, i as u32, &[Slot::NONE]),
+            }
         }
         found
-    }
-
-    /// Nearest hit of one instance or quadric in (0, `t_max`).
-    #[inline]
-    fn object(&self, object: u32, ray: &Ray, t_max: f32, leaving: Departure) -> Option<Hit> {
-        match self.instances.get(object as usize) {
-            Some(instance) => {
-                let prototype = &self.prototypes[instance.prototype as usize];
-                let triangle = instance.nearest(prototype, ray, t_max, leaving.from(object))?;
-                Some(Hit { t: triangle.t, triangle, object })
-            }
-            None => {
-                let t = self.quadrics[object as usize - self.instances.len()].0.intersect_before(ray, t_max)?;
-                Some(Hit { t, triangle: TriangleHit::default(), object })
-            }
-        }
     }
 
     /// The surface at a hit on a triangle of the world that carries nothing but its positions, and whose it is (with the
@@ -268,52 +201,69 @@ impl Geometry {
     /// their sake.
     #[inline(always)]
     pub fn plain_surface(&self, hit: &Hit) -> Option<(Surface, Owner)> {
-        if hit.object != WORLD {
+        let Hit { u, v, primitive: Departure { object, slot }, .. } = *hit;
+        if object != WORLD {
             return None;
         }
-        let TriangleHit { u, v, triangle, .. } = hit.triangle;
-        let Origin { part, triangle, ng } = self.origin[triangle as usize];
+        let Origin { part, triangle, ng } = self.origin[self.world.triangle(slot) as usize];
         let part = &self.parts[part as usize];
         if !part.plain {
             return None;
         }
-        Some((flat_surface(self.world.vertices(&hit.triangle), u, v, ng.into()), part.owner.of_triangle(triangle)))
+        Some((flat_surface(self.world.vertices(slot), u, v, ng.into()), part.owner.of_triangle(triangle)))
     }
 
     /// The surface at any hit of `ray`, and whose it is.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
-        let TriangleHit { u, v, triangle, .. } = hit.triangle;
-        if hit.object == WORLD {
-            let Origin { part, triangle, ng } = self.origin[triangle as usize];
-            let part = &self.parts[part as usize];
-            let flat = flat_surface(self.world.vertices(&hit.triangle), u, v, ng.into());
-            let (p, attributes) = corners(&part.mesh, triangle, part.owner.charted);
-            let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
-            return (surface, part.owner.of_triangle(triangle));
+        let Hit { u, v, primitive: Departure { object, slot }, .. } = *hit;
+        if let Some(object) = self.objects.get(object as usize) {
+            return object.surface(&self.prototypes, ray, hit);
         }
-        match self.instances.get(hit.object as usize) {
-            Some(instance) => {
-                let mesh = &self.prototypes[instance.prototype as usize].mesh;
-                (instance.surface(mesh, triangle, u, v), instance.owner.of_triangle(triangle))
-            }
+        let Origin { part, triangle, ng } = self.origin[self.world.triangle(slot) as usize];
+        let part = &self.parts[part as usize];
+        let flat = flat_surface(self.world.vertices(slot), u, v, ng.into());
+        let (p, attributes) = corners(&part.mesh, triangle, part.owner.charted);
+        let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
+        (surface, part.owner.of_triangle(triangle))
+    }
+
+    /// ∂p/∂u and ∂p/∂v at a hit of `ray`, in world space; `None` where the surface has no texture coordinates.
+    pub fn derivatives(&self, ray: &Ray, hit: &Hit) -> Option<Derivatives> {
+        let Hit { t, u, v, primitive: Departure { object, slot } } = *hit;
+        let of_mesh = |mesh: &Mesh, triangle: u32, map: &dyn Fn(Vec3) -> Vec3| {
+            let (p, attributes) = corners(mesh, triangle, true);
+            triangle_derivatives(p.map(map), attributes.uv[0]?)
+        };
+        match self.objects.get(object as usize) {
             None => {
-                let (quadric, owner) = &self.quadrics[hit.object as usize - self.instances.len()];
-                (quadric.surface(ray, hit.t, owner.charted), *owner)
+                let Origin { part, triangle, .. } = self.origin[self.world.triangle(slot) as usize];
+                of_mesh(&self.parts[part as usize].mesh, triangle, &|p| p)
             }
+            Some(Object::Instance(instance)) => {
+                let Prototype { mesh, bvh } = &self.prototypes[instance.prototype as usize];
+                of_mesh(mesh, bvh.triangle(slot), &|p| instance.transform.to_world.transform_point3(p))
+            }
+            Some(Object::Primitive(primitive, _)) => primitive.derivatives(ray, &PrimitiveHit { t, u, v }),
         }
     }
 
     /// Box about everything.
     pub fn bounds(&self) -> Aabb {
-        self.world.bounds().union(self.objects.bounds())
+        self.world.bounds().union(self.tree.bounds())
     }
 
-    /// Triangles stored, triangles as placed, instances, quadrics.
+    /// Triangles stored, triangles as placed, instances, primitives that stand alone.
     pub fn counts(&self) -> [usize; 4] {
-        let placed = |i: &Instance| self.prototypes[i.prototype as usize].mesh.indices.len();
         let prototypes: usize = self.prototypes.iter().map(|p| p.mesh.indices.len()).sum();
-        let instanced: usize = self.instances.iter().map(placed).sum();
-        [self.origin.len() + prototypes, self.origin.len() + instanced, self.instances.len(), self.quadrics.len()]
+        let (mut placed, mut instances) = (0, 0);
+        for object in &self.objects {
+            if let Object::Instance(instance) = object {
+                placed += self.prototypes[instance.prototype as usize].mesh.indices.len();
+                instances += 1;
+            }
+        }
+        let triangles = self.origin.len();
+        [triangles + prototypes, triangles + placed, instances, self.objects.len() - instances]
     }
 
     /// Bytes of meshes and of hierarchies.
@@ -322,14 +272,14 @@ impl Geometry {
         let trees = self.prototypes.iter().map(|p| p.bvh.memory()).sum::<usize>();
         [
             meshes.map(mesh_bytes).sum::<usize>() + size_of_val(&self.origin[..]),
-            self.world.memory() + self.objects.memory() + trees,
+            self.world.memory() + self.tree.memory() + trees,
         ]
     }
 }
 
 impl Owner {
     #[inline(always)]
-    fn of_triangle(self, triangle: u32) -> Self {
+    pub(super) fn of_triangle(self, triangle: u32) -> Self {
         Self { emitter: self.emitter.map(|first| first + triangle), ..self }
     }
 }

@@ -5,11 +5,13 @@ mod geometry;
 mod info;
 mod instance;
 mod media;
+mod object;
 mod shading;
 
-pub use geometry::{Departure, Geometry, Hit};
+pub use geometry::Geometry;
 pub use info::Info;
 pub use media::{Interface, Media};
+pub use object::{Departure, Hit};
 pub use shading::Shading;
 
 use crate::bsdf::Bsdf;
@@ -190,8 +192,7 @@ impl Scene {
     ) -> Seen {
         let (mut seen, mut inside) = (Seen::ALL, inside.clone());
         while let Some(hit) = self.geometry.nearest(&ray, leaving) {
-            // Triangles have one point on a ray.
-            if target.is_triangle() && hit.departure() == target {
+            if self.geometry.is_end(&ray, &hit, target) {
                 break;
             }
             let vertex = self.vertex(&ray, &hit);
@@ -268,7 +269,7 @@ impl Scene {
         let wo = -ray.d;
         let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
         let front = wo.dot(surface.ng) > 0.0;
-        Vertex { surface, wo, material: owner.material, light, front, departure: hit.departure() }
+        Vertex { surface, wo, material: owner.material, light, front, departure: hit.primitive }
     }
 
     fn coverage(&self, vertex: &Vertex) -> f32 {

@@ -4,18 +4,29 @@
 //! hit. Quadrics answer for themselves, in f64, so that a hit is known to half a unit in the last place of f32.
 
 mod placed;
+mod primitive;
 mod quadric;
 mod triangle;
 
 pub use placed::PlacedQuadric;
+pub use primitive::{Primitive, PrimitiveHit, Triangle};
 pub use quadric::{Chart, Quadric, QuadricPoint};
 pub use triangle::{
-    TriangleAttributes, TriangleHit, flat_surface, interpolate, intersect_triangle, triangle_area, triangle_normal,
-    triangle_surface, with_attributes,
+    TriangleAttributes, flat_surface, interpolate, intersect_triangle, triangle_area, triangle_derivatives,
+    triangle_normal, triangle_surface, with_attributes,
 };
 
 use crate::math::{Transform, gamma};
 use glam::{Vec2, Vec3A, Vec4};
+
+/// How a point moves with the first set of texture coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Derivatives {
+    /// ∂p/∂u.
+    pub dpdu: Vec3A,
+    /// ∂p/∂v; v grows downwards.
+    pub dpdv: Vec3A,
+}
 
 /// A point of a surface with what shading needs, in world space (or object space before it is placed).
 #[derive(Clone, Copy, Debug)]

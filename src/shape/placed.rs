@@ -1,6 +1,6 @@
 //! A quadric placed in the world.
 
-use super::{Chart, Quadric, QuadricPoint, Surface};
+use super::{Chart, Derivatives, Quadric, QuadricPoint, Surface};
 use crate::math::{Ray, Transform, UNIT_ROUNDOFF};
 use glam::{DAffine3, DMat3, DVec3, Vec2, Vec3, Vec3A, Vec4};
 
@@ -75,6 +75,14 @@ impl PlacedQuadric {
     pub fn surface(&self, ray: &Ray, t: f32, charted: bool) -> Surface {
         let (o, d) = self.ray_to_object(ray);
         self.surface_at(&self.quadric.refine(o, d, f64::from(t)), charted)
+    }
+
+    /// ∂p/∂u and ∂p/∂v in world space where `ray` meets it at `t`.
+    pub fn derivatives(&self, ray: &Ray, t: f32) -> Option<Derivatives> {
+        let (o, d) = self.ray_to_object(ray);
+        let chart = self.quadric.chart(&self.quadric.refine(o, d, f64::from(t)));
+        let m = &self.to_world.matrix3;
+        Some(Derivatives { dpdu: (*m * chart.dpdu).as_vec3a(), dpdv: (*m * chart.dpdv).as_vec3a() })
     }
 
     /// The world-space surface at a point of the quadric.

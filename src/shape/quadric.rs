@@ -47,6 +47,8 @@ pub struct Chart {
     pub uv: Vec2,
     /// ∂p/∂u; 0 at the poles of a sphere.
     pub dpdu: DVec3,
+    /// ∂p/∂v.
+    pub dpdv: DVec3,
 }
 
 impl Quadric {
@@ -165,16 +167,23 @@ impl Quadric {
             Self::Sphere { radius } => {
                 let rho = n.truncate().length();
                 let uv = Vec2::new(turn(n.truncate()), (rho.atan2(n.z) / PI) as f32);
-                Chart { uv, dpdu: around(radius) }
+                // Down the meridian; at the poles along that of longitude 0.
+                let outwards = n.truncate().try_normalize().unwrap_or(DVec2::X);
+                let down = (outwards * n.z).extend(-rho);
+                Chart { uv, dpdu: around(radius), dpdv: down * (PI * f64::from(radius)) }
             }
             Self::Disk { radius } => {
                 let r = f64::from(radius);
                 let uv = 0.5 * (DVec2::new(p.x, -p.y) / r + 1.0);
-                Chart { uv: uv.as_vec2().clamp(Vec2::ZERO, Vec2::ONE), dpdu: DVec3::X * (2.0 * r) }
+                Chart {
+                    uv: uv.as_vec2().clamp(Vec2::ZERO, Vec2::ONE),
+                    dpdu: DVec3::X * (2.0 * r),
+                    dpdv: DVec3::NEG_Y * (2.0 * r),
+                }
             }
             Self::Cylinder { radius, height } => {
                 let uv = Vec2::new(turn(n.truncate()), (1.0 - p.z / f64::from(height)) as f32);
-                Chart { uv, dpdu: around(radius) }
+                Chart { uv, dpdu: around(radius), dpdv: DVec3::NEG_Z * f64::from(height) }
             }
         }
     }

@@ -1,6 +1,6 @@
 //! Triangles: the surface at a hit, and what lights and tests need to know of one.
 
-use super::Surface;
+use super::{Derivatives, PrimitiveHit, Surface};
 use crate::math::{Ray, gamma};
 use glam::{Vec2, Vec3, Vec3A, Vec4};
 
@@ -15,17 +15,6 @@ pub struct TriangleAttributes {
     pub uv: [Option<[Vec2; 3]>; 2],
     /// Linear RGBA vertex colours.
     pub colors: Option<[Vec4; 3]>,
-}
-
-/// Where a ray meets a triangle.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TriangleHit {
-    /// Ray parameter.
-    pub t: f32,
-    /// Weight of the second vertex.
-    pub u: f32,
-    /// Weight of the third vertex.
-    pub v: f32,
 }
 
 /// Σ bᵢ xᵢ with weights (1 − u − v, u, v).
@@ -129,9 +118,19 @@ fn tangent_from_uv(p: [Vec3; 3], uv: [Vec2; 3], flip: bool) -> (Vec3A, f32) {
     (((e1 * d2.y - e2 * d1.y) * det.signum()).into(), handedness)
 }
 
+/// ∂p/∂u and ∂p/∂v of a triangle with these texture coordinates, the solution of eᵢ = Δuᵢ ∂p/∂u + Δvᵢ ∂p/∂v; `None` where
+/// they are degenerate.
+pub fn triangle_derivatives(p: [Vec3; 3], uv: [Vec2; 3]) -> Option<Derivatives> {
+    let (e1, e2) = (p[1] - p[0], p[2] - p[0]);
+    let (d1, d2) = (uv[1] - uv[0], uv[2] - uv[0]);
+    let inverse = d1.perp_dot(d2).recip();
+    let (dpdu, dpdv) = ((e1 * d2.y - e2 * d1.y) * inverse, (e2 * d1.x - e1 * d2.x) * inverse);
+    (dpdu.is_finite() && dpdv.is_finite()).then_some(Derivatives { dpdu: dpdu.into(), dpdv: dpdv.into() })
+}
+
 /// Where `ray` meets triangle `p`, from either side (Möller & Trumbore 1997, in f64). For one triangle at a time;
 /// meshes are traced by [`crate::bvh`].
-pub fn intersect_triangle(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<TriangleHit> {
+pub fn intersect_triangle(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<PrimitiveHit> {
     let (o, d, a) = (ray.o.as_dvec3(), ray.d.as_dvec3(), a.as_dvec3());
     let (e1, e2) = (b.as_dvec3() - a, c.as_dvec3() - a);
     let h = d.cross(e2);
@@ -142,7 +141,7 @@ pub fn intersect_triangle(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<TriangleHit
     let s = o - a;
     let q = s.cross(e1);
     let (u, v, t) = (s.dot(h) / det, d.dot(q) / det, e2.dot(q) / det);
-    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < f64::from(ray.t_max)).then_some(TriangleHit {
+    (u >= 0.0 && v >= 0.0 && u + v <= 1.0 && t > 0.0 && t < f64::from(ray.t_max)).then_some(PrimitiveHit {
         t: t as f32,
         u: u as f32,
         v: v as f32,

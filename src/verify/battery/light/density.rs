@@ -182,15 +182,20 @@ impl Placed {
             }
         }
 
-        // Nothing of the light is met in the last hundredth of the shadow ray, if its point is seen at all: near a silhouette
-        // rounding may lose the farther of two hits, and the point may be that one.
+        // Nothing of the light is met on the way to the point, if that is seen at all: near a silhouette rounding may lose the
+        // farther of two hits, and the point may be that one.
         let alone = second.is_none_or(|(t2, _)| t2 > 1.05 * first.map_or(0.0, |(t, _)| t));
         let nearest = first.is_some_and(|first| off(&first) <= off(&(t, hit)) && off(&first) <= near);
-        let end = Ray { t_max: 0.01 * s.distance, ..Ray::new(self.p + s.wi * (0.99 * s.distance), s.wi) };
+        let to = s.p - self.p;
+        let shadow = Ray { t_max: to.length() - s.margin, ..Ray::new(self.p, to.normalize()) };
+        let hidden = match &self.light {
+            Light::Quadric(quadric) => quadric.shape.hides_own_point(&shadow, shadow.t_max),
+            other => other.intersect(&shadow).is_some(),
+        };
         Some(Compared {
             deviation: f64::from(deviation).max(0.0),
             promised: le == s.le,
-            unshadowed: !(alone && nearest) || self.light.intersect(&end).is_none(),
+            unshadowed: !(alone && nearest) || !hidden,
         })
     }
 }
