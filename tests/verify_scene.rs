@@ -222,3 +222,33 @@ fn an_empty_scene_and_one_without_surfaces_end() {
     dark.cameras.clear();
     assert!(verify(dark, &["data", "normals", "leaks", "material", "furnace", "agreement", "expect"]).passes());
 }
+
+/// Channels of a thin film have noise of their own: the brightest channel of each pixel, chosen by that noise, is brighter
+/// than any channel on average.
+#[test]
+fn noise_of_single_channels_is_no_energy() {
+    let constant = desc::ScalarParam::constant;
+    let film =
+        desc::Iridescence { factor: constant(1.0), ior: 1.3, thickness: [100.0, 400.0], thickness_texture: None };
+    let glass = desc::MetallicRoughness {
+        base_color: desc::ColorParam::constant([1.0; 3]),
+        metallic: constant(0.0),
+        roughness: constant(0.0),
+        ior: 1.5,
+        specular: constant(1.0),
+        specular_color: desc::ColorParam::constant([1.0; 3]),
+        transmission: Some(desc::Transmission { factor: constant(1.0), thin: false }),
+        layers: desc::Layers::default(),
+        diffuse_transmission: None,
+        iridescence: Some(film),
+    };
+    let mut scene = desc::Scene::default();
+    scene.materials.push(desc::Material::new("film", desc::Model::MetallicRoughness(Box::new(glass))));
+    scene.shapes.push(Shape::Sphere { radius: 1.0 });
+    scene.objects.push(desc::Object::new(0, 0));
+    complete(&mut scene);
+    let report = verify(scene, &["furnace/as written"]);
+    assert!(report.passes(), "{:#?}", report.failures().collect::<Vec<_>>());
+    let channels = report.checks().filter(|(_, check)| check.name.ends_with("B: `film` ≤ 1")).count();
+    assert!(channels > 0, "the blue channel is tested by itself: {:#?}", report.sections);
+}

@@ -6,9 +6,9 @@
 
 use super::Subject;
 use super::places::places;
-use super::view::{View, camera_name};
+use super::view::{Budget, View, camera_name};
 use super::worn::least_alpha;
-use crate::desc::{Pixels, Scene, Strategy};
+use crate::desc::{Light, Pixels, Scene, Strategy};
 use crate::render::{Error, Settings};
 use crate::sampler::hash;
 use crate::verify::agreement::{Estimated, agreement};
@@ -16,7 +16,7 @@ use crate::verify::expect::STRATEGIES;
 use crate::verify::measure::REPLICATES;
 use crate::verify::replicated::{Census, Replicated, renders};
 use crate::verify::tiles::{Estimate, estimates, unseen};
-use crate::verify::{Findings, Task, Topic, Trial};
+use crate::verify::{Findings, Task, Topic};
 
 const TOPIC: Topic = Topic {
     id: "agreement",
@@ -37,17 +37,17 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
     }
     let subject = subject.clone();
     vec![Task::new(TOPIC, camera_name(&subject.scene, 0), move |trial, found| {
-        if let Err(e) = compare(&subject, trial, found) {
+        if let Err(e) = compare(&subject, Budget::of(trial, RAYS), found) {
             found.words.push(format!("no image: {e}"));
             found.checks.holds("an image is made", false);
         }
     })]
 }
 
-fn compare(subject: &Subject, trial: &Trial, found: &mut Findings) -> Result<(), Error> {
+/// Checks that all strategies estimate the image of the first camera.
+pub(in crate::verify) fn compare(subject: &Subject, budget: Budget, found: &mut Findings) -> Result<(), Error> {
     let scene = &subject.scene;
-    let rays = trial.work(RAYS[0], RAYS[1]);
-    let settings = View { camera: 0, rays, seed: trial.seed, strategy: Strategy::Mis }.settings(scene)?;
+    let settings = View { camera: 0, budget, strategy: Strategy::Mis }.settings(scene)?;
     let samples = settings.replicate;
     let mut census = Census::default();
     let mut image = |strategy: Strategy| -> Result<Replicated, Error> {
@@ -125,8 +125,15 @@ fn brightest(scene: &Scene) -> f64 {
         });
         largest(&e.radiance.factor) * image.map_or(1.0, of_image)
     });
+    // A sun's disk has its irradiance over the solid angle, π sin² of half the diameter where it is seen from the front.
+    let suns = scene.lights.iter().map(|light| match light {
+        Light::Sun { irradiance, diameter, .. } => {
+            largest(irradiance) / (std::f64::consts::PI * (0.5 * f64::from(*diameter)).sin().powi(2))
+        }
+        _ => 0.0,
+    });
     let around = scene.environment.iter().map(|e| largest(&e.radiance) * e.image.map_or(1.0, of_image));
-    surfaces.chain(around).fold(0.0, f64::max)
+    surfaces.chain(suns).chain(around).fold(0.0, f64::max)
 }
 
 /// How much brighter than a diffuse surface the glossiest one is at its peak: D/4 ≈ 1/(4πα²) against 1/π.

@@ -1,7 +1,7 @@
 //! Samples that are NaN, infinite or negative: of radiance, or of what the film keeps of the first surface.
 
 use super::Subject;
-use super::view::{View, camera_name};
+use super::view::{Budget, View, camera_name};
 use crate::desc::Strategy;
 use crate::render::{Output, Settings};
 use crate::verify::{Findings, Task, Topic, Trial};
@@ -35,7 +35,7 @@ pub(super) fn tasks(subject: &Subject) -> Vec<Task> {
 }
 
 fn count(subject: &Subject, camera: usize, trial: &Trial, found: &mut Findings) {
-    let view = View { camera, rays: trial.work(RAYS[0], RAYS[1]), seed: trial.seed, strategy: Strategy::Mis };
+    let view = View { camera, budget: Budget::of(trial, RAYS), strategy: Strategy::Mis };
     let settings = view.settings(&subject.scene);
     let output = settings.and_then(|s| View::render(&subject.scene, &s).map(|o| (s, o)));
     let (settings, output) = match output {

@@ -15,12 +15,12 @@
 //! Defects of the data that the renderer survives are words, and their checks pass; energy out of nothing, samples that
 //! are no radiance, leaks and disagreement fail.
 
-mod agreement;
+pub(in crate::verify) mod agreement;
 mod census;
 mod conformance;
 mod data;
 mod expect;
-mod furnace;
+pub(in crate::verify) mod furnace;
 mod leaks;
 mod material;
 mod normals;
@@ -28,8 +28,8 @@ mod one_sided;
 mod places;
 mod surfaces;
 mod topology;
-mod view;
-mod white;
+pub(in crate::verify) mod view;
+pub(in crate::verify) mod white;
 mod worn;
 
 pub use conformance::{Conformance, conformance};
@@ -43,9 +43,9 @@ use std::sync::Arc;
 
 /// A scene as written and as traced.
 #[derive(Clone)]
-struct Subject {
-    desc: Arc<desc::Scene>,
-    scene: Arc<Scene>,
+pub(in crate::verify) struct Subject {
+    pub(in crate::verify) desc: Arc<desc::Scene>,
+    pub(in crate::verify) scene: Arc<Scene>,
 }
 
 /// Every check of a scene: `desc` as written (and completed: [`desc::load`]), `scene` compiled from it. The names of the

@@ -3,24 +3,41 @@
 use crate::desc::{self, Filter, Integrator, SamplerKind, Strategy};
 use crate::render::{self, Output, Settings};
 use crate::scene::Scene;
+use crate::verify::Trial;
 use crate::verify::measure::REPLICATES;
 use std::sync::atomic::AtomicBool;
 
-/// Pixels of an image, about.
+/// Pixels of a scene's image, about.
 const PIXELS: f64 = 3072.0;
 
 /// Side of the tiles that pixels are pooled in.
 pub(super) const TILE: u32 = 8;
+
+/// What an image may cost.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::verify) struct Budget {
+    /// Most rays, about.
+    pub rays: u64,
+    /// Most pixels, about.
+    pub pixels: f64,
+    /// Seed of the sampler.
+    pub seed: u64,
+}
+
+impl Budget {
+    /// That of a scene file's image.
+    pub(super) fn of(trial: &Trial, rays: [u64; 2]) -> Self {
+        Self { rays: trial.work(rays[0], rays[1]), pixels: PIXELS, seed: trial.seed }
+    }
+}
 
 /// What is looked at, and for how many rays.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct View {
     /// Number of the camera.
     pub camera: usize,
-    /// Most rays, about.
-    pub rays: u64,
-    /// Seed of the sampler.
-    pub seed: u64,
+    /// What it may cost.
+    pub budget: Budget,
     /// How directions are drawn.
     pub strategy: Strategy,
 }
@@ -31,12 +48,13 @@ impl View {
     /// seed gives the same numbers on every machine.
     pub(super) fn settings(&self, scene: &Scene) -> Result<Settings, render::Error> {
         let aspect = scene.cameras.get(self.camera).map_or(1.0, aspect);
-        let pilot = self.with(size(aspect, PIXELS / 16.0), 1, 1);
+        let most = self.budget.pixels;
+        let pilot = self.with(size(aspect, most / 16.0), 1, 1);
         let output = render::render(scene, &pilot, &AtomicBool::new(false), &|_| {})?;
         let pixels = f64::from(pilot.size[0] * pilot.size[1]);
         let rays_per_replicate = REPLICATES as f64 * output.rays.max(1) as f64 / pixels;
-        let affordable = self.rays as f64 / rays_per_replicate;
-        let size = size(aspect, affordable.clamp(PIXELS / 16.0, PIXELS));
+        let affordable = self.budget.rays as f64 / rays_per_replicate;
+        let size = size(aspect, affordable.clamp(most / 16.0, most));
         let samples = (affordable / f64::from(size[0] * size[1])).clamp(1.0, 64.0);
         let replicate = 1 << samples.log2() as u32;
         Ok(self.with(size, replicate, REPLICATES as u32 * replicate))
@@ -54,7 +72,7 @@ impl View {
             strategy: self.strategy,
             sampler: SamplerKind::Lattice,
             // JSON headers and command lines carry 53 bits.
-            seed: self.seed >> 11,
+            seed: self.budget.seed >> 11,
             max_depth: None,
             filter: Filter::Box,
             transport: false,

@@ -6,14 +6,14 @@ use std::sync::Arc;
 
 /// A material made to scatter all that it receives: its model [lossless](crate::desc::Model::lossless), its interior clear, without
 /// emission. `None` for what absorbs whatever its parameters are.
-pub(super) fn lossless(material: &Material) -> Option<Material> {
+pub(in crate::verify) fn lossless(material: &Material) -> Option<Material> {
     let interior = Interior { absorption: [0.0; 3], ..material.interior };
     Some(Material { model: material.model.lossless()?, emission: None, interior, ..material.clone() })
 }
 
 /// What a scene is made before it is put into a furnace.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Dress {
+pub(in crate::verify) enum Dress {
     /// Nothing.
     Written,
     /// Every material is [`lossless`] that can be.
