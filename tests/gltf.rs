@@ -30,6 +30,8 @@ mod pose;
 mod quantized;
 #[path = "gltf/skinned.rs"]
 mod skinned;
+#[path = "common/skip.rs"]
+mod skip;
 #[path = "gltf/tangents.rs"]
 mod tangents;
 #[path = "gltf/textures.rs"]

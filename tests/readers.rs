@@ -10,6 +10,8 @@ mod lights;
 mod models;
 #[path = "readers/schema.rs"]
 mod schema;
+#[path = "common/skip.rs"]
+mod skip;
 #[path = "readers/toml_errors.rs"]
 mod toml_errors;
 #[path = "readers/toml_optics.rs"]
@@ -25,7 +27,7 @@ fn assets(name: &str) -> Option<PathBuf> {
     match folder {
         Some(folder) if folder.is_dir() => Some(folder),
         _ => {
-            println!("skipped: RADIANZA_ASSETS names no folder that has `{name}`");
+            skip::skip(&format!("RADIANZA_ASSETS names no folder that has `{name}`"));
             None
         }
     }

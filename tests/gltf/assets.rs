@@ -195,7 +195,7 @@ fn document(path: &Path) -> Value {
 fn assets() -> Vec<PathBuf> {
     let folder = std::env::var_os("RADIANZA_ASSETS").map(|root| Path::new(&root).join("gltf"));
     let Some(folder) = folder.filter(|f| f.is_dir()) else {
-        println!("skipped: RADIANZA_ASSETS names no folder that has `gltf`");
+        crate::skip::skip("RADIANZA_ASSETS names no folder that has `gltf`");
         return Vec::new();
     };
     let (mut files, mut folders) = (Vec::new(), vec![folder]);

@@ -21,7 +21,7 @@ impl Browser {
             version.is_ok_and(|status| status.success())
         });
         if found.is_none() {
-            println!("skipped: neither $CHROME nor chromium, chromium-browser or google-chrome runs");
+            crate::skip::skip("neither $CHROME nor chromium, chromium-browser or google-chrome runs");
         }
         found.map(Self)
     }

@@ -3,6 +3,8 @@
 
 mod browser;
 mod example;
+#[path = "../common/skip.rs"]
+mod skip;
 
 use browser::Browser;
 use radianza::verify::report::html;
