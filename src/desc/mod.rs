@@ -49,7 +49,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// A whole scene, indices everywhere: `usize` fields named after a list index it.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Scene {
     /// Name for people: the file's stem, or what the file says.
     pub name: String,

@@ -155,6 +155,15 @@ fn punctual() -> Vec<Specimen> {
         desc::Light::Spot { position, direction: Vec3::NEG_Z, intensity, inner: 0.3, outer: 0.6, range: f32::INFINITY };
     let sun = desc::Light::Directional { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: intensity };
     let disk = desc::Light::Sun { direction: Vec3::new(0.6, 0.0, -0.8), irradiance: intensity, diameter: 0.01 };
+    // A luminaire of two vertical angles, brighter along its axis.
+    let profile = desc::ies::Profile {
+        kind: desc::ies::Photometry::C,
+        vertical: vec![0.0, 90.0],
+        horizontal: vec![0.0],
+        candela: vec![5.0, 1.0],
+    };
+    let to_world = Mat3::IDENTITY;
+    let measured = desc::Light::Profile { position, to_world, intensity, profile: profile.into() };
     let specimen = |name, light: &desc::Light, points| Specimen { name, light: Light::from_desc(light), points };
     vec![
         specimen(
@@ -171,6 +180,7 @@ fn punctual() -> Vec<Specimen> {
                 ("outside", Vec3::new(3.0, 0.0, 0.0)),
             ],
         ),
+        specimen("measured", &measured, vec![("below", Vec3::new(0.5, 1.0, 0.0))]),
         specimen("directional", &sun, vec![("anywhere", Vec3::ZERO)]),
         specimen("sun", &disk, vec![("anywhere", Vec3::ZERO)]),
     ]

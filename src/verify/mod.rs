@@ -14,6 +14,7 @@
 //! | [`expect`] | a scene that carries its exact answer |
 //! | [`measure`] | means with as many samples as a detectable bias asks for |
 //! | [`picture`] | what a failing image looks like |
+//! | [`random`] | random scenes, in which any two features meet |
 //! | [`replicated`] | images in independent replicates |
 //! | [`report`] | what a run found |
 //! | [`scattering`] | what must hold of a BSDF, ours or anyone's |
@@ -28,6 +29,7 @@ pub mod chart;
 pub mod expect;
 pub mod measure;
 pub mod picture;
+pub mod random;
 pub mod replicated;
 pub mod report;
 pub mod scattering;

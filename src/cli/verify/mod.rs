@@ -28,6 +28,10 @@ pub(crate) struct Arguments {
     scene: Option<PathBuf>,
     #[command(flatten)]
     pick: Pick,
+    /// Check N random scenes of the seed instead, in which any two features of the scene description meet; what fails is
+    /// shrunk and printed
+    #[arg(long, value_name = "N", conflicts_with = "scene")]
+    random: Option<u64>,
     /// A quarter of an hour of two cores instead of a minute: more members, smaller detectable biases
     #[arg(long, conflicts_with = "quick")]
     thorough: bool,
@@ -77,7 +81,7 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let outputs = Outputs::new(arguments)?;
     interrupt::at_once();
     let mut tasks = select(tasks(arguments)?, &arguments.only)?;
-    if arguments.quick && arguments.scene.is_none() && arguments.only.is_empty() {
+    if arguments.quick && arguments.scene.is_none() && arguments.random.is_none() && arguments.only.is_empty() {
         tasks = battery::excerpt(tasks);
     }
     let report = check(&tasks, arguments)?;
@@ -93,7 +97,10 @@ fn tasks(arguments: &Arguments) -> Result<Vec<Task>, Failure> {
     let options = arguments.pick.options();
     let Some(path) = &arguments.scene else {
         return match options == Options::default() {
-            true => Ok(battery::tasks()),
+            true => Ok(match arguments.random {
+                Some(count) => verify::random::tasks(arguments.seed, 0..count),
+                None => battery::tasks(),
+            }),
             false => Err(Failure::Usage("a time or a variant needs a scene".into())),
         };
     };
@@ -146,6 +153,9 @@ fn about(arguments: &Arguments) -> About {
     if let Some(scene) = &scene {
         command += &format!(" {}", quoted(scene));
         command += &arguments.pick.command(quoted);
+    }
+    if let Some(count) = arguments.random {
+        command += &format!(" --random {count}");
     }
     command += &format!(" --seed {} --alpha {}", arguments.seed, arguments.alpha);
     match size(arguments) {
