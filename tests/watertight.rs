@@ -8,9 +8,9 @@ use radianza::bsdf::Bsdf;
 use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
 use radianza::desc::{self, ColorParam, Model, Object, Shape};
 use radianza::math::Ray;
-use radianza::medium::Inside;
+use radianza::medium::MediumStack;
 use radianza::sampler::{Kind, Sampler};
-use radianza::scene::{Departure, Interface, Scene};
+use radianza::scene::{Departure, MediumInterface, Scene};
 use radianza::warp;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -83,12 +83,12 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
         let (mut ray, mut leaving) =
             (Ray::new(Vec3::new(3.0, -1.0, 7.0), warp::uniform_sphere(u.next_2d())), Departure::NOWHERE);
         for bounce in 0..BOUNCES {
-            let met = scene.intersect_from(&ray, leaving, &mut Inside::default(), &mut || 0.5);
+            let met = scene.intersect_from(&ray, leaving, &mut MediumStack::default(), &mut || 0.5);
             let vertex = met.unwrap_or_else(|| panic!("path {i} got out at bounce {bounce}: {ray:?}"));
-            let shading = scene.shade(&vertex, &Interface::default(), None, &mut scratch);
+            let shading = scene.shade(&vertex, &MediumInterface::default(), None, &mut scratch);
             let wi = warp::cosine_hemisphere(u.next_2d());
             let wi = if shading.wo.z < 0.0 { -wi } else { wi };
-            ray = shading.leave(&vertex, shading.frame.to_world(wi).normalize());
+            ray = shading.leave(shading.frame.to_world(wi).normalize());
             leaving = vertex.departure;
         }
     });

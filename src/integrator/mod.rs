@@ -18,20 +18,21 @@ pub mod replay;
 mod scatter;
 mod solver;
 pub mod strategy;
+mod walk;
 pub mod whitted;
 
 pub use classes::Classes;
-pub use medium::Sides;
 pub use scatter::Stray;
 pub use solver::Solver;
 pub use strategy::Drawn;
+pub use walk::{Event, Numbers, Walk};
 
 use crate::bsdf::{Pdf, Transport};
 use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
 use crate::light::Receiver;
 use crate::math::Ray;
-use crate::medium::Inside;
+use crate::medium::MediumStack;
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading, Vertex};
 use crate::spectrum::Spectrum;
@@ -47,10 +48,19 @@ pub struct Method<'a> {
     pub strategy: Strategy,
     /// Most reflections and refractions of a path.
     pub max_depth: u32,
-    /// The interiors about the camera.
-    pub inside: Inside,
+    /// The media about the camera.
+    pub media: MediumStack,
     /// What was prepared before the first ray.
     pub solver: Solver,
+}
+
+impl Method<'_> {
+    /// Most smooth thin sheets that light sampling looks through from a vertex at `depth`: as many as the path has
+    /// reflections left, and none where only paths of one reflection are summed.
+    #[inline]
+    fn most_sheets(&self, depth: u32) -> u32 {
+        if self.integrator == Integrator::Path { self.max_depth - depth - 1 } else { 0 }
+    }
 }
 
 /// Someone who watches a path: the split by transport class, a replay, a test. The estimators report each piece of
@@ -116,14 +126,15 @@ pub fn radiance<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
 }
 
 /// What the film keeps of the first surface.
-fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: &Shading) {
+fn first_surface(sample: &mut PixelSample, ray: &Ray, shading: &Shading) {
+    let vertex = shading.vertex;
     sample.alpha = 1.0;
     sample.depth = (vertex.surface.p - ray.o).length();
     sample.normal = if vertex.front { shading.frame.n } else { -shading.frame.n }.into();
     sample.albedo = shading.bsdf.albedo(shading.wo);
 }
 
-/// Radiance that the light sampler sees from a point: one light, one shadow ray,
+/// β times the radiance that the light sampler finds for a vertex: one light, one shadow ray,
 ///
 /// ```text
 /// ∫ f(x, ωi, ωo) Le(x, ωi) |cos θi| dωi  ≈  f Le |cos θi| w / pdf
@@ -131,33 +142,29 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, vertex: &Vertex, shading: 
 ///
 /// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
 /// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
-/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`). The shadow ray looks through at most
-/// `most_sheets` smooth thin sheets. Returns the radiance, the part of it that specular lobes reflect, and the number of
-/// sheets.
+/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`).
 pub fn direct_light<O: Observer>(
     method: &Method,
-    vertex: &Vertex,
+    walk: &Walk,
     shading: &Shading,
-    sides: Sides,
     stray: Option<Stray>,
-    most_sheets: u32,
-    choice: f32,
-    u: [f32; 2],
+    u: &Numbers,
     watch: &mut O,
-) -> (Spectrum, Spectrum, u32) {
-    const NOTHING: (Spectrum, Spectrum, u32) = (Spectrum::ZERO, Spectrum::ZERO, 0);
+) -> Spectrum {
     let scene = method.scene;
-    let receiver = shading.receiver(vertex);
-    let Some((index, light)) = scene.lights.sample(&receiver, choice, u, &scene.textures) else { return NOTHING };
+    let receiver = shading.receiver();
+    let Some((index, light)) = scene.lights.sample(&receiver, u.light_choice, u.light, &scene.textures) else {
+        return Spectrum::ZERO;
+    };
     // f |cos θ|, of what strayed too, and the density of the other sampler.
     let wi = shading.frame.to_local(light.wi);
-    let (mut f, mut specular, mut pdf) = (Spectrum::ZERO, Spectrum::ZERO, shading.stray_pdf(vertex, light.wi));
-    if shading.agrees(vertex, light.wi, wi) {
+    let (mut f, mut specular, mut pdf) = (Spectrum::ZERO, Spectrum::ZERO, shading.stray_pdf(light.wi));
+    if shading.agrees(light.wi, wi) {
         let eval = shading.bsdf.eval(shading.wo, wi, Transport::Radiance);
         (f, specular, pdf) = (eval.f * wi.z.abs(), eval.specular * wi.z.abs(), pdf + eval.pdf);
     }
     if let Some(stray) = stray {
-        let (all, part) = stray.towards(vertex, light.wi);
+        let (all, part) = stray.towards(shading, light.wi);
         (f, specular) = (f + all, specular + part);
     }
     // How much of this light is the light sampler's share?
@@ -165,22 +172,29 @@ pub fn direct_light<O: Observer>(
         (Pdf::Discrete(p), _) => 1.0 / p,
         (Pdf::SolidAngle(light_pdf), Strategy::Mis) => power_heuristic(light_pdf, pdf) / light_pdf,
         (Pdf::SolidAngle(light_pdf), Strategy::Light) => 1.0 / light_pdf,
-        (Pdf::SolidAngle(_), Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => return NOTHING,
+        (Pdf::SolidAngle(_), Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => return Spectrum::ZERO,
     };
     if f.is_black() {
-        return NOTHING;
+        return Spectrum::ZERO;
     }
+    // The shadow ray.
     watch.ray();
-    let inside = sides.towards(vertex, light.wi);
-    let seen = scene.visibility(vertex, index, &light, inside, most_sheets);
+    let media = shading.interface.crossed(shading.vertex, light.wi).unwrap_or(&walk.media);
+    let seen = scene.visibility(shading.vertex, index, &light, media, method.most_sheets(walk.depth));
     if seen.share.is_black() {
-        return NOTHING;
+        return Spectrum::ZERO;
     }
     let mut arriving = light.le * seen.share * share;
-    if !inside.is_empty() {
-        arriving *= scene.media.transmittance(inside, light.distance);
+    if !media.is_empty() {
+        arriving *= scene.media.transmittance(media, light.distance);
     }
-    (f * arriving, specular * arriving, seen.sheets)
+    let light = walk.beta * (f * arriving);
+    if O::CLASSES {
+        // Each sheet on the way is a specular transmission.
+        let classes = (0..seen.sheets).fold(walk.classes.reflected(f, specular), |c, _| c.reflected(f, f));
+        watch.light(light, &classes);
+    }
+    light
 }
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would

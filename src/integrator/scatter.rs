@@ -18,11 +18,11 @@
 //! importance sampling any density will do that both compute alike: (1 − n·g)/2, what strays of Lambert's lobe, stands
 //! for the share of all lobes.
 
-use super::{Drawn, Method, strategy};
+use super::{Drawn, Method, Numbers, Walk, strategy};
 use crate::bsdf::{Pdf, Sample, Transport};
 use crate::math::{Frame, Ray, renormalize};
 use crate::sampler::Sampler;
-use crate::scene::{Shading, Vertex};
+use crate::scene::Shading;
 use crate::spectrum::Spectrum;
 use crate::warp::cosine_hemisphere;
 use glam::{Vec3, Vec3A};
@@ -59,8 +59,8 @@ pub struct Stray {
 impl Stray {
     /// Its f' |cos θ| towards the world direction `wi`, and the part that specular lobes give.
     #[inline]
-    pub(super) fn towards(&self, vertex: &Vertex, wi: Vec3A) -> (Spectrum, Spectrum) {
-        let share = (wi.dot(vertex.surface.ng) * self.side).max(0.0) * FRAC_1_PI;
+    pub(super) fn towards(&self, shading: &Shading, wi: Vec3A) -> (Spectrum, Spectrum) {
+        let share = (wi.dot(shading.vertex.surface.ng) * self.side).max(0.0) * FRAC_1_PI;
         (self.weight * share, self.specular * share)
     }
 }
@@ -69,20 +69,19 @@ impl Stray {
 #[inline(always)]
 pub(super) fn draw(
     method: &Method,
-    vertex: &Vertex,
+    walk: &Walk,
     shading: &Shading,
-    choice: f32,
-    u: [f32; 2],
+    u: &Numbers,
     sampler: &mut Sampler,
 ) -> Option<Scattered> {
     let Sample { wi: local, mut weight, mut specular, pdf, eta } =
-        strategy::sample(method, shading.bsdf, shading.wo, choice, u)?;
+        strategy::sample(method, shading.bsdf, shading.wo, u.lobe_choice, u.lobe)?;
     let mut wi = renormalize(shading.frame.to_world(local));
     let (mut straight, mut stray) = (false, None);
-    let from = shading.receiver(vertex);
-    let drawn = if shading.agrees(vertex, wi, local) {
+    let from = shading.receiver();
+    let drawn = if shading.agrees(wi, local) {
         match pdf {
-            Pdf::SolidAngle(pdf) => Drawn::Smooth { pdf: pdf + shading.stray_pdf(vertex, wi), from },
+            Pdf::SolidAngle(pdf) => Drawn::Smooth { pdf: pdf + shading.stray_pdf(wi), from },
             Pdf::Discrete(_) => {
                 straight = eta == 1.0 && local == -shading.wo && shading.bsdf.straight(shading.wo).is_some();
                 Drawn::Delta
@@ -90,13 +89,13 @@ pub(super) fn draw(
         }
     } else {
         // Into the surface, or out of it where light is transmitted: to the side where it belongs.
-        let again = astray(vertex, shading, local, wi, sampler)?;
+        let again = astray(walk, shading, local, wi, sampler)?;
         (weight, specular) = (weight * again.rho, specular * again.rho);
         stray = Some(Stray { weight, specular, side: 1f32.copysign(local.z) });
         wi = again.wi;
         Drawn::Smooth { pdf: again.pdf, from }
     };
-    Some(Scattered { ray: shading.leave(vertex, wi), weight, specular, eta, drawn, straight, stray })
+    Some(Scattered { ray: shading.leave(wi), weight, specular, eta, drawn, straight, stray })
 }
 
 /// Where strayed light leaves: by the cosine.
@@ -110,18 +109,16 @@ struct Again {
 /// How a draw that strayed, of direction `wi` (`local` in the frame), leaves again.
 #[cold]
 #[inline(never)]
-fn astray(vertex: &Vertex, shading: &Shading, local: Vec3, wi: Vec3A, sampler: &mut Sampler) -> Option<Again> {
-    if local.z == 0.0 || vertex.surface.ng.dot(wi) == 0.0 {
+fn astray(walk: &Walk, shading: &Shading, local: Vec3, wi: Vec3A, sampler: &mut Sampler) -> Option<Again> {
+    let ng = shading.vertex.surface.ng;
+    if local.z == 0.0 || ng.dot(wi) == 0.0 {
         return None;
     }
     let side = 1f32.copysign(local.z);
-    let wi = Frame::from_z(vertex.surface.ng).to_world(cosine_hemisphere(sampler.next_2d())) * side;
+    let wi = Frame::from_z(ng).to_world(cosine_hemisphere(walk.leak_numbers(sampler))) * side;
     let local = shading.frame.to_local(wi);
-    let pdf = if shading.agrees(vertex, wi, local) {
-        shading.bsdf.eval(shading.wo, local, Transport::Radiance).pdf
-    } else {
-        0.0
-    };
+    let pdf =
+        if shading.agrees(wi, local) { shading.bsdf.eval(shading.wo, local, Transport::Radiance).pdf } else { 0.0 };
     let rho = shading.bsdf.albedo(Vec3::Z.copysign(shading.wo)).min(Spectrum::ONE);
-    Some(Again { wi, pdf: pdf + shading.stray_pdf(vertex, wi), rho })
+    Some(Again { wi, pdf: pdf + shading.stray_pdf(wi), rho })
 }

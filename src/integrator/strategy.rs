@@ -92,11 +92,3 @@ fn cosine_hemisphere(u: [f32; 2]) -> (Vec3, f32) {
     let z = crate::math::safe_sqrt(1.0 - u[0]);
     (Vec3::new(r * cos, r * sin, z), z / PI)
 }
-
-/// Probability that a path of this throughput goes on: in proportion to it below `held`, so that the survivors are held
-/// there, and never 1, so that lossless closed scenes end.
-#[inline]
-pub fn survival(throughput: f32, held: f32) -> f32 {
-    const MOST: f32 = 0.999;
-    (throughput / held).min(MOST)
-}

@@ -4,13 +4,13 @@
 //! | --- | --- |
 //! | this | [`Medium`]: transmittance along a distance |
 //! | `interior` | [`Interior`]: medium, index of refraction over the lanes, priority |
-//! | `inside` | [`Inside`]: the interiors about a point, by priority; true and false surfaces |
+//! | `stack` | [`MediumStack`]: the interiors about a point, by priority; true and false surfaces |
 
-mod inside;
 mod interior;
+mod stack;
 
-pub use inside::{Inside, MOST_NESTED, Meeting};
 pub use interior::{Cauchy, Interior};
+pub use stack::{Crossing, MOST_NESTED, MediumStack};
 
 use crate::spectrum::Spectrum;
 

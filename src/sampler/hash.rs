@@ -24,6 +24,13 @@ pub(super) fn pixel_hash(seed: u64, pixel: [u32; 2], index: u64) -> u64 {
     hash(&[seed, (pixel[1] as u64) << 32 | pixel[0] as u64, index])
 }
 
+/// Key of branch `branch` of the numbers that `key` gives: apart from the keys of all dimensions, `key` plus multiples of
+/// [`GOLDEN`], as it is hashed twice.
+#[inline]
+pub(super) fn fork_key(key: u64, branch: u32) -> u64 {
+    mix(mix(!key).wrapping_add(u64::from(branch).wrapping_mul(GOLDEN)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -1,6 +1,6 @@
 //! Independent pseudo-random numbers.
 
-use super::hash::{mix, pixel_hash};
+use super::hash::{fork_key, mix, pixel_hash};
 use super::unit;
 use rand::Rng;
 use rand_pcg::Pcg32;
@@ -11,14 +11,26 @@ use rand_pcg::Pcg32;
 pub struct Independent {
     generator: Pcg32,
     dimension: u32,
+    /// Hash of the seed, the pixel and the index.
+    key: u64,
 }
 
 impl Independent {
     /// At dimension 0.
     #[inline]
     pub fn new(seed: u64, pixel: [u32; 2], index: u64) -> Self {
-        let state = pixel_hash(seed, pixel, index);
-        Self { generator: Pcg32::new(state, mix(!state)), dimension: 0 }
+        Self::of_key(pixel_hash(seed, pixel, index))
+    }
+
+    #[inline]
+    fn of_key(key: u64) -> Self {
+        Self { generator: Pcg32::new(key, mix(!key)), dimension: 0, key }
+    }
+
+    /// Numbers independent of these, at dimension 0; others for every `branch`.
+    #[inline]
+    pub fn fork(&self, branch: u32) -> Self {
+        Self::of_key(fork_key(self.key, branch))
     }
 
     /// The number at this dimension; goes on to the next.

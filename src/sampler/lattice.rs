@@ -16,7 +16,7 @@
 //!
 //! Every dimension, or pair, visits its points in its own nested uniform order, as Sobol points are visited.
 
-use super::hash::{GOLDEN, mix, pixel_hash};
+use super::hash::{GOLDEN, fork_key, mix, pixel_hash};
 use super::sobol::{owen_end, owen_start};
 use super::unit_24;
 
@@ -54,6 +54,12 @@ impl Lattice {
             dimension: 0,
             key: pixel_hash(seed, pixel, index >> log2),
         }
+    }
+
+    /// The same point of a randomisation of its own, independent of this one, at dimension 0; another for every `branch`.
+    #[inline]
+    pub fn fork(&self, branch: u32) -> Self {
+        Self { dimension: 0, key: fork_key(self.key, branch), ..*self }
     }
 
     /// The number at this dimension; goes on to the next.

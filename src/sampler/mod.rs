@@ -90,6 +90,18 @@ impl Sampler {
         }
     }
 
+    /// Numbers of a branch, at dimension 0: as well spread over the samples of a pixel as these, and independent of them
+    /// and of every other branch's. For what needs an unknown count of numbers, such as the opacities along a ray, or
+    /// the branches of a tree: it then shifts no dimension of what comes after it.
+    #[inline(never)]
+    pub fn fork(&self, branch: u32) -> Self {
+        match self {
+            Self::Independent(s) => Self::Independent(s.fork(branch)),
+            Self::Sobol(s) => Self::Sobol(s.fork(branch)),
+            Self::Lattice(s) => Self::Lattice(s.fork(branch)),
+        }
+    }
+
     /// The dimension that comes next.
     #[inline]
     pub fn dimension(&self) -> u32 {
@@ -121,6 +133,23 @@ mod tests {
     fn one_is_never_reached() {
         assert_eq!(unit(0), 0.0);
         assert_eq!(unit(u32::MAX), crate::warp::ONE_MINUS_EPSILON);
+    }
+
+    #[test]
+    fn branches_have_numbers_of_their_own() {
+        for kind in [Kind::Independent, Kind::Sobol, Kind::Lattice] {
+            let mut trunk = Sampler::new(kind, 7, [3, 5], 70_000, 64);
+            let first = |mut s: Sampler| s.next_1d();
+            let mut numbers = vec![first(trunk.clone())];
+            numbers.extend((0..50).map(|k| first(trunk.fork(k))));
+            numbers.extend((0..50).map(|k| first(trunk.fork(3).fork(k))));
+            // Wherever the trunk is.
+            trunk.skip_to(40);
+            assert_eq!(first(trunk.fork(2)), numbers[3]);
+            assert_eq!(trunk.fork(2).dimension(), 0);
+            numbers.sort_by(f32::total_cmp);
+            assert!(numbers.windows(2).all(|pair| pair[0] != pair[1]), "{kind:?}");
+        }
     }
 
     #[test]

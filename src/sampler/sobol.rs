@@ -4,7 +4,7 @@
 //! visited in its own nested-uniformly shuffled order. A pair is thus a (0,2)-sequence; different pairs are
 //! independent. Everything is computed from the index, so there is no table and no largest index or dimension.
 
-use super::hash::{GOLDEN, mix, pixel_hash};
+use super::hash::{GOLDEN, fork_key, mix, pixel_hash};
 use super::{unit, unit_24};
 
 /// Numbers of one sample.
@@ -28,6 +28,12 @@ impl Sobol {
         let within = (index & (size - 1)) as u32;
         let key = pixel_hash(seed, pixel, index >> size.trailing_zeros());
         Self { reversed_index: owen_start(within.reverse_bits()), small: size <= 256, dimension: 0, key }
+    }
+
+    /// The same point of a randomisation of its own, independent of this one, at dimension 0; another for every `branch`.
+    #[inline]
+    pub fn fork(&self, branch: u32) -> Self {
+        Self { dimension: 0, key: fork_key(self.key, branch), ..*self }
     }
 
     /// The number at this dimension; goes on to the next.

@@ -4,7 +4,7 @@ use super::{Departure, Scene, Vertex};
 use crate::desc;
 use crate::material;
 use crate::math::{Ray, offset_origin};
-use crate::medium::{Inside, Interior, MOST_NESTED, Meeting};
+use crate::medium::{Crossing, Interior, MOST_NESTED, MediumStack};
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
 use glam::Vec3A;
@@ -20,15 +20,26 @@ pub struct Media {
     of_material: Vec<u32>,
 }
 
-/// The interface that a path stands at: what is there on both sides of it.
+/// The media on both sides of a surface, as a path meets it.
 #[derive(Clone, Debug, Default)]
-pub struct Interface {
-    /// Before the front of the surface.
+pub struct MediumInterface {
+    /// Interior before the front of the surface.
     before: Option<u32>,
-    /// Behind it.
+    /// Interior behind it.
     behind: Option<u32>,
-    /// The interiors on the other side than the path's, where they are others.
-    pub across: Option<Inside>,
+    /// The media on the far side from the path, where they are not those that the path is in.
+    pub across: Option<MediumStack>,
+}
+
+impl MediumInterface {
+    /// Vacuum on both sides.
+    pub const VACUUM: Self = Self { before: None, behind: None, across: None };
+
+    /// The media that the world direction `wi` leads into from `vertex`, where it crosses into others.
+    #[inline]
+    pub fn crossed(&self, vertex: &Vertex, wi: Vec3A) -> Option<&MediumStack> {
+        self.across.as_ref().filter(|_| (wi.dot(vertex.surface.ng) > 0.0) != vertex.front)
+    }
 }
 
 impl Media {
@@ -58,46 +69,46 @@ impl Media {
         (id != NONE).then_some(id)
     }
 
-    /// Where the vertex lies on the surface of an interior: what it is to a path in `inside`.
+    /// Crosses the surface of an interior, where the vertex lies on one, from the media of `stack`.
     #[inline]
-    fn meet(&self, inside: &Inside, vertex: &Vertex) -> Option<Meeting> {
+    fn cross(&self, stack: &MediumStack, vertex: &Vertex) -> Option<Crossing> {
         if self.interiors.is_empty() {
             return None;
         }
-        self.of(vertex.material).map(|id| inside.meet(id, vertex.front, &self.interiors))
+        self.of(vertex.material).map(|id| stack.cross(id, vertex.front, &self.interiors))
     }
 
-    /// Where the vertex is hidden in something of higher priority: the interiors behind it. What emits is never hidden,
+    /// The media behind a vertex that is hidden in something of higher priority; `None` where it is not. What emits is never hidden,
     /// or its light would be lost to some and not to others who sample it.
     #[inline]
-    pub(super) fn hidden(&self, inside: &Inside, vertex: &Vertex) -> Option<Inside> {
-        if inside.is_empty() || vertex.light.is_some() {
+    pub(super) fn hidden(&self, stack: &MediumStack, vertex: &Vertex) -> Option<MediumStack> {
+        if stack.is_empty() || vertex.light.is_some() {
             return None;
         }
-        self.meet(inside, vertex).filter(|meeting| !meeting.is_true).map(|meeting| meeting.across)
+        self.cross(stack, vertex).filter(|crossing| !crossing.is_true).map(|crossing| crossing.across)
     }
 
-    /// The two sides of the vertex for a path in `inside`.
+    /// The media on both sides of the vertex for a path in those of `stack`.
     #[inline]
-    pub fn interface(&self, inside: &Inside, vertex: &Vertex) -> Interface {
-        match self.meet(inside, vertex) {
-            None => Interface::default(),
-            Some(Meeting { before, across, .. }) => {
-                Interface { before, behind: self.of(vertex.material), across: Some(across) }
+    pub fn interface(&self, stack: &MediumStack, vertex: &Vertex) -> MediumInterface {
+        match self.cross(stack, vertex) {
+            None => MediumInterface::default(),
+            Some(Crossing { before, across, .. }) => {
+                MediumInterface { before, behind: self.of(vertex.material), across: Some(across) }
             }
         }
     }
 
     /// What passes the interface has another η in every lane, and must choose one.
     #[inline]
-    pub fn disperses(&self, interface: &Interface) -> bool {
+    pub fn disperses(&self, interface: &MediumInterface) -> bool {
         let one = |id: Option<u32>| id.is_some_and(|id| self.interiors[id as usize].disperses());
         interface.behind.is_some() && (one(interface.behind) || one(interface.before))
     }
 
     /// Index behind over index before the surface in a lane; `None` where that is the material's own over vacuum.
     #[inline]
-    pub fn eta(&self, interface: &Interface, lane: Option<usize>) -> Option<f32> {
+    pub fn eta(&self, interface: &MediumInterface, lane: Option<usize>) -> Option<f32> {
         let behind = &self.interiors[interface.behind? as usize];
         let before = interface.before.map(|id| &self.interiors[id as usize]);
         match (before, lane) {
@@ -112,15 +123,15 @@ impl Media {
 
     /// Share of light that is left after `distance` \[m\] in what is there.
     #[inline]
-    pub fn transmittance(&self, inside: &Inside, distance: f32) -> Spectrum {
-        inside.current().map_or(Spectrum::ONE, |id| self.interiors[id as usize].medium.transmittance(distance))
+    pub fn transmittance(&self, stack: &MediumStack, distance: f32) -> Spectrum {
+        stack.current().map_or(Spectrum::ONE, |id| self.interiors[id as usize].medium.transmittance(distance))
     }
 }
 
 impl Scene {
     /// The interiors about a point: those whose surfaces are left more often than entered on the way to infinity, on
     /// every one of several ways, so that open surfaces enclose nothing.
-    pub fn inside(&self, p: Vec3A) -> Inside {
+    pub fn media_about(&self, p: Vec3A) -> MediumStack {
         /// Far from the axes and from each other.
         const WAYS: [Vec3A; 7] = [
             Vec3A::new(0.31, 0.86, 0.41),
@@ -131,9 +142,9 @@ impl Scene {
             Vec3A::new(0.39, 0.58, -0.71),
             Vec3A::new(0.58, -0.62, 0.53),
         ];
-        let mut inside = Inside::default();
+        let mut stack = MediumStack::default();
         if self.media.interiors.is_empty() {
-            return inside;
+            return stack;
         }
         let mut left = self.left(p, WAYS[0]);
         for way in &WAYS[1..] {
@@ -142,9 +153,9 @@ impl Scene {
         }
         // What is left last was entered first.
         for id in left.into_iter().rev() {
-            inside = inside.entered(id, &self.media.interiors);
+            stack = stack.entered(id, &self.media.interiors);
         }
-        inside
+        stack
     }
 
     /// The interiors that a ray leaves without having entered them, in order.

@@ -10,7 +10,7 @@ mod shading;
 
 pub use geometry::Geometry;
 pub use info::Info;
-pub use media::{Interface, Media};
+pub use media::{Media, MediumInterface};
 pub use object::{Departure, Hit};
 pub use shading::Shading;
 
@@ -20,7 +20,7 @@ use crate::desc;
 use crate::light::{LightSample, Lights};
 use crate::material::Material;
 use crate::math::{Ray, offset_origin};
-use crate::medium::Inside;
+use crate::medium::MediumStack;
 use crate::shape::Surface;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -99,49 +99,49 @@ impl Scene {
     /// 1 − coverage; `u` gives the numbers in [0, 1) that decide.
     #[inline]
     pub fn intersect(&self, ray: &Ray, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
-        self.intersect_from(ray, Departure::NOWHERE, &mut Inside::default(), u)
+        self.intersect_from(ray, Departure::NOWHERE, &mut MediumStack::default(), u)
     }
 
-    /// The same for a ray that leaves a triangle and begins `inside` interiors, and learns of those that it enters and leaves
-    /// behind surfaces that are hidden in others. What is there stays the same all along.
+    /// The nearest surface along a ray that leaves the primitive `excluded` and begins in `media`, which become those before
+    /// the surface: the ray passes boundaries that lie hidden inside a medium of higher priority.
     #[inline]
     pub fn intersect_from(
         &self,
         ray: &Ray,
-        leaving: Departure,
-        inside: &mut Inside,
+        excluded: Departure,
+        media: &mut MediumStack,
         u: &mut impl FnMut() -> f32,
     ) -> Option<Vertex> {
         let mut vertex = Vertex::NOWHERE;
-        self.meet(ray, leaving, inside, u, &mut vertex).then_some(vertex)
+        self.intersect_into(ray, excluded, media, u, &mut vertex).then_some(vertex)
     }
 
-    /// The same, with the vertex written where the caller has room for it: paths would copy it about.
+    /// Like [`Self::intersect_from`], with the vertex written where the caller holds it, so that paths do not copy it.
     #[inline(always)]
-    pub fn meet(
+    pub fn intersect_into(
         &self,
         ray: &Ray,
-        leaving: Departure,
-        inside: &mut Inside,
+        excluded: Departure,
+        media: &mut MediumStack,
         u: &mut impl FnMut() -> f32,
         vertex: &mut Vertex,
     ) -> bool {
-        let Some(hit) = self.geometry.nearest(ray, leaving) else { return false };
+        let Some(hit) = self.geometry.nearest(ray, excluded) else { return false };
         match self.geometry.plain_surface(&hit) {
             Some((surface, owner)) => *vertex = self.vertex_of(ray, &hit, surface, owner),
             None => self.put_vertex(ray, &hit, vertex),
         }
         let is_seen = !self.has_holes || !self.materials[vertex.material as usize].has_holes();
-        (is_seen && inside.is_empty()) || self.meet_seen(ray, inside, u, vertex)
+        (is_seen && media.is_empty()) || self.pass(ray, media, u, vertex)
     }
 
     /// Goes on from a vertex that may not be seen to the first that is.
     #[inline(never)]
-    fn meet_seen(&self, ray: &Ray, inside: &mut Inside, u: &mut impl FnMut() -> f32, vertex: &mut Vertex) -> bool {
+    fn pass(&self, ray: &Ray, media: &mut MediumStack, u: &mut impl FnMut() -> f32, vertex: &mut Vertex) -> bool {
         let mut ray = *ray;
         loop {
-            match self.media.hidden(inside, vertex) {
-                Some(across) => *inside = across,
+            match self.media.hidden(media, vertex) {
+                Some(across) => *media = across,
                 None => {
                     let coverage = self.coverage(vertex);
                     if coverage >= 1.0 || u() < coverage {
@@ -155,7 +155,7 @@ impl Scene {
         }
     }
 
-    /// How much of what light number `index` sends arrives at `vertex`, on its side where the interiors are `inside`: nothing
+    /// How much of what light number `index` sends arrives at `vertex`, on its side where the media are `media`: nothing
     /// or all, or between where the way leads through holes and at most `most_sheets` smooth thin sheets, which do not bend it.
     #[inline]
     pub fn visibility(
@@ -163,7 +163,7 @@ impl Scene {
         vertex: &Vertex,
         index: u32,
         light: &LightSample,
-        inside: &Inside,
+        media: &MediumStack,
         most_sheets: u32,
     ) -> Seen {
         let target = self.primitives[index as usize];
@@ -172,11 +172,11 @@ impl Scene {
             return Seen::NOTHING;
         }
         let ray = shadow_ray(&vertex.surface, light);
-        let passing = passing(most_sheets > 0, !inside.is_empty());
+        let passing = passing(most_sheets > 0, !media.is_empty());
         match self.geometry.obstacle(&ray, vertex.departure, target, passing) {
             Obstacle::None => Seen::ALL,
             Obstacle::Opaque => Seen::NOTHING,
-            Obstacle::Passable => self.seen_through(ray, vertex.departure, target, inside, most_sheets),
+            Obstacle::Passable => self.seen_through(ray, vertex.departure, target, media, most_sheets),
         }
     }
 
@@ -187,16 +187,16 @@ impl Scene {
         mut ray: Ray,
         mut leaving: Departure,
         target: Departure,
-        inside: &Inside,
+        media: &MediumStack,
         most_sheets: u32,
     ) -> Seen {
-        let (mut seen, mut inside) = (Seen::ALL, inside.clone());
+        let (mut seen, mut media) = (Seen::ALL, media.clone());
         while let Some(hit) = self.geometry.nearest(&ray, leaving) {
             if self.geometry.is_end(&ray, &hit, target) {
                 break;
             }
             let vertex = self.vertex(&ray, &hit);
-            match self.media.hidden(&inside, &vertex) {
+            match self.media.hidden(&media, &vertex) {
                 None => {
                     let coverage = self.coverage(&vertex);
                     let holes = Spectrum::splat(1.0 - coverage);
@@ -207,7 +207,7 @@ impl Scene {
                         return Seen::NOTHING;
                     }
                 }
-                Some(across) => inside = across,
+                Some(across) => media = across,
             }
             (ray, leaving) = (self.beyond(&ray, &vertex), vertex.departure);
             if ray.t_max <= 0.0 {
@@ -224,7 +224,8 @@ impl Scene {
             return None;
         }
         let mut scratch = Bsdf::new();
-        let shading = self.shade(vertex, &Interface::default(), None, &mut scratch);
+        let interface = MediumInterface::VACUUM;
+        let shading = self.shade(vertex, &interface, None, &mut scratch);
         shading.bsdf.straight(shading.wo)
     }
 
@@ -233,13 +234,13 @@ impl Scene {
     #[inline(always)]
     pub fn shade<'a>(
         &'a self,
-        vertex: &Vertex,
-        interface: &Interface,
+        vertex: &'a Vertex,
+        interface: &'a MediumInterface,
         lane: Option<usize>,
         scratch: &'a mut Bsdf,
     ) -> Shading<'a> {
         let eta = self.media.eta(interface, lane);
-        Shading::between(&self.materials[vertex.material as usize], vertex, &self.textures, eta, scratch)
+        Shading::between(&self.materials[vertex.material as usize], vertex, &self.textures, interface, eta, scratch)
     }
 
     /// Le towards where the ray came from.

@@ -1,6 +1,6 @@
 //! A vertex with its shading frame and lobes.
 
-use super::Vertex;
+use super::{MediumInterface, Vertex};
 use crate::bsdf::Bsdf;
 use crate::light::{Facing, Receiver};
 use crate::material::Material;
@@ -8,9 +8,13 @@ use crate::math::{Frame, Ray, offset_origin};
 use crate::texture::Textures;
 use glam::{Vec3, Vec3A};
 
-/// What scatters at a vertex. The frame's z is the shading normal on the front side.
+/// The BSDF at a vertex. The frame's z is the shading normal on the front side.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
+    /// Where.
+    pub vertex: &'a Vertex,
+    /// The media on both sides.
+    pub interface: &'a MediumInterface,
     /// Shading frame.
     pub frame: Frame,
     /// Towards where the ray came from, local.
@@ -25,16 +29,19 @@ pub struct Shading<'a> {
 impl<'a> Shading<'a> {
     /// Evaluates the material; lobes that vary over the surface are put into `scratch`.
     #[inline]
-    pub fn new(material: &'a Material, vertex: &Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
-        Self::between(material, vertex, textures, None, scratch)
+    pub fn new(material: &'a Material, vertex: &'a Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
+        static VACUUM: MediumInterface = MediumInterface::VACUUM;
+        Self::between(material, vertex, textures, &VACUUM, None, scratch)
     }
 
-    /// The same where the index behind the surface over the one before it is `eta`, not the material's own.
+    /// Evaluates the material between the media of `interface`, where the index behind the surface over the one before it is
+    /// `eta`; `None`: the material's own.
     #[inline(always)]
     pub fn between(
         material: &'a Material,
-        vertex: &Vertex,
+        vertex: &'a Vertex,
         textures: &Textures,
+        interface: &'a MediumInterface,
         eta: Option<f32>,
         scratch: &'a mut Bsdf,
     ) -> Self {
@@ -44,27 +51,27 @@ impl<'a> Shading<'a> {
         let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
         let wo = frame.to_local(vertex.wo);
         let stray = (0.5 - 0.5 * ns.dot(s.ng)).max(0.0);
-        Self { frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch), stray }
+        Self { vertex, interface, frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch), stray }
     }
 
     /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the
     /// shading normal. Where they disagree light would leak through the surface, or reflection into it.
     #[inline]
-    pub fn agrees(&self, vertex: &Vertex, wi: Vec3A, local: Vec3) -> bool {
-        wi.dot(vertex.surface.ng) * local.z > 0.0
+    pub fn agrees(&self, wi: Vec3A, local: Vec3) -> bool {
+        wi.dot(self.vertex.surface.ng) * local.z > 0.0
     }
 
     /// Who asks for light here: the half-space above the shading normal on the side of `wo` (above the surface, where the
     /// normal is bent: strayed light leaves there), or both where something is transmitted.
     #[inline]
-    pub fn receiver(&self, vertex: &Vertex) -> Receiver {
-        let n = if self.is_bent() { vertex.surface.ng } else { self.frame.n };
+    pub fn receiver(&self) -> Receiver {
+        let n = if self.is_bent() { self.vertex.surface.ng } else { self.frame.n };
         let facing = match (self.bsdf.transmits(), self.wo.z < 0.0) {
             (true, _) => Facing::Both(n),
             (false, true) => Facing::Half(-n),
             (false, false) => Facing::Half(n),
         };
-        Receiver { p: vertex.surface.p, facing }
+        Receiver { p: self.vertex.surface.p, facing }
     }
 
     /// The shading normal differs from the geometric one by more than rounding.
@@ -75,14 +82,14 @@ impl<'a> Shading<'a> {
 
     /// Density \[1/sr\] that stands for strayed light towards the world direction `wi`.
     #[inline]
-    pub fn stray_pdf(&self, vertex: &Vertex, wi: Vec3A) -> f32 {
-        self.stray * wi.dot(vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
+    pub fn stray_pdf(&self, wi: Vec3A) -> f32 {
+        self.stray * wi.dot(self.vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
     }
 
     /// The ray that leaves along the world direction `wi`, off the surface by its error bound.
     #[inline]
-    pub fn leave(&self, vertex: &Vertex, wi: Vec3A) -> Ray {
-        let s = &vertex.surface;
+    pub fn leave(&self, wi: Vec3A) -> Ray {
+        let s = &self.vertex.surface;
         Ray::new(offset_origin(s.p, s.p_error, s.ng, wi), wi)
     }
 }

@@ -126,9 +126,9 @@ fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findin
 fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
     let (integrator, strategy, max_depth) = (Integrator::Path, settings.strategy, u32::MAX);
     let camera = Camera::new(&scene.cameras[settings.camera], settings.size);
-    let inside = scene.inside(camera.middle());
+    let media = scene.media_about(camera.middle());
     let solver = Solver::prepare(scene, integrator);
-    let method = Method { scene, integrator, strategy, max_depth, inside, solver };
+    let method = Method { scene, integrator, strategy, max_depth, media, solver };
     let seed = hash(&[settings.seed, 2]);
     let sample = |[x, y]: [u32; 2], index: u64| {
         let mut u = Sampler::new(Kind::Independent, seed, [x, y], index, 1);

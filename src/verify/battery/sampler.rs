@@ -57,11 +57,12 @@ fn uniformity(s: &Specimen, trial: &Trial, found: &mut Findings) {
     let n: u32 = trial.work(1 << 15, 1 << 19);
     for (what, point) in [("first", 0), ("second", 1), ("last", size - 1)] {
         type Walk = (&'static str, Box<dyn Fn(u32) -> [f32; 2]>);
-        let over: [Walk; 6] = [
+        let over: [Walk; 7] = [
             ("seeds", Box::new(move |k| s.at(seed.wrapping_add(k.into()), [0, 0], point, 0).next_2d())),
             ("rows", Box::new(move |k| s.at(seed, [7, k], point, 0).next_2d())),
             ("pixels", Box::new(move |k| s.at(seed, [k % 256, k / 256], point, 4).next_2d())),
             ("replicates", Box::new(move |k| s.at(seed, [0, 0], u64::from(k) * size + point, 0).next_2d())),
+            ("branches", Box::new(move |k| s.at(seed, [0, 0], point, 0).fork(k).next_2d())),
             ("dimensions", Box::new(move |k| s.at(seed, [0, 0], point, 2 * k).next_2d())),
             (
                 "pixels, taken singly",

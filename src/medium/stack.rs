@@ -18,33 +18,33 @@ pub const MOST_NESTED: usize = 6;
 /// The interiors about a point: ascending in priority, and among equals in the order in which they were entered. Numbers
 /// index a list of [`Interior`]s.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub struct Inside(ArrayVec<u32, MOST_NESTED>);
+pub struct MediumStack(ArrayVec<u32, MOST_NESTED>);
 
-/// A surface that encloses an interior, as it is met from one side.
+/// What the surface of an interior is to a path that meets it from one side.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Meeting {
-    /// What is changed by the surface: false in something of higher priority, where there is nothing to see.
+pub struct Crossing {
+    /// The medium changes at the surface. False within something of higher priority, where there is nothing to see.
     pub is_true: bool,
-    /// What is there before the front of the surface; `None`: vacuum.
+    /// The interior before the front of the surface; `None`: vacuum.
     pub before: Option<u32>,
     /// The interiors on the other side.
-    pub across: Inside,
+    pub across: MediumStack,
 }
 
-impl Inside {
-    /// Nothing about: vacuum.
+impl MediumStack {
+    /// No interiors: vacuum.
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
     }
 
-    /// What is there.
+    /// The interior that is there: the one of highest priority.
     #[inline]
     pub fn current(&self) -> Option<u32> {
         self.0.last().copied()
     }
 
-    /// These, having entered one more.
+    /// The stack after entering the interior `id`.
     #[must_use]
     pub fn entered(&self, id: u32, interiors: &[Interior]) -> Self {
         let mut after = self.clone();
@@ -55,7 +55,7 @@ impl Inside {
         after
     }
 
-    /// These, having left one, and whether it was among them.
+    /// The stack after leaving the interior `id`, and whether it was on it.
     #[must_use]
     pub fn left(&self, id: u32) -> (Self, bool) {
         let mut after = self.clone();
@@ -66,16 +66,16 @@ impl Inside {
         (after, place.is_some())
     }
 
-    /// The surface of interior `id`, met from its front (entering) or its back (leaving).
+    /// Crosses the surface of interior `id` from its front (entering) or its back (leaving).
     ///
     /// A back that was never entered belongs to a surface that is not closed, or to one whose front the path did not
     /// see: it is taken as the way out of `id` into what is there.
-    pub fn meet(&self, id: u32, front: bool, interiors: &[Interior]) -> Meeting {
+    pub fn cross(&self, id: u32, front: bool, interiors: &[Interior]) -> Crossing {
         let current = self.current();
         if front {
             let hidden =
                 current.is_some_and(|c| c == id || interiors[c as usize].priority > interiors[id as usize].priority);
-            return Meeting { is_true: !hidden, before: current, across: self.entered(id, interiors) };
+            return Crossing { is_true: !hidden, before: current, across: self.entered(id, interiors) };
         }
         let (across, known) = self.left(id);
         let before = across.current();
@@ -84,7 +84,7 @@ impl Inside {
         } else {
             current.is_none_or(|c| interiors[c as usize].priority <= interiors[id as usize].priority)
         };
-        Meeting { is_true, before, across }
+        Crossing { is_true, before, across }
     }
 }
 
@@ -101,14 +101,14 @@ mod tests {
     /// Walks through surfaces (interior, front) and says which were true, with what was before their fronts.
     fn walk(priorities: &[i32], way: &[(u32, bool)]) -> Vec<Option<Option<u32>>> {
         let all: Vec<_> = priorities.iter().map(|&p| interiors([p])[0]).collect();
-        let mut inside = Inside::default();
+        let mut stack = MediumStack::default();
         let step = |&(id, front): &(u32, bool)| {
-            let Meeting { is_true, before, across } = inside.meet(id, front, &all);
-            inside = across;
+            let Crossing { is_true, before, across } = stack.cross(id, front, &all);
+            stack = across;
             is_true.then_some(before)
         };
         let seen = way.iter().map(step).collect();
-        assert!(inside.is_empty());
+        assert!(stack.is_empty());
         seen
     }
 
@@ -145,11 +145,11 @@ mod tests {
     #[test]
     fn what_does_not_fit_is_not_remembered() {
         let all = interiors([0; 10]);
-        let mut inside = Inside::default();
+        let mut stack = MediumStack::default();
         for id in 0..10 {
-            inside = inside.entered(id, &all);
+            stack = stack.entered(id, &all);
         }
-        assert_eq!(inside.current(), Some(MOST_NESTED as u32 - 1));
-        assert!(!inside.left(9).1);
+        assert_eq!(stack.current(), Some(MOST_NESTED as u32 - 1));
+        assert!(!stack.left(9).1);
     }
 }
