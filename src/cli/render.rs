@@ -133,6 +133,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let output = render::render(&compiled, &settings, &stop, &|p| report.update(p))?;
     report.finish();
     name_bad_samples(&output);
+    let forgotten = compiled.forgotten_interiors();
+    if forgotten > 0 {
+        let most = radianza::medium::MOST_NESTED;
+        eprintln!(
+            "note: {forgotten} times a path was in more than {most} interiors at once and forgot the last: the image is wrong there"
+        );
+    }
     if output.samples_per_pixel == 0 {
         return Err(Failure::Nothing);
     }

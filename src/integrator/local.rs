@@ -1,7 +1,7 @@
 //! Local illumination: emitted and direct light, L = Le + ∫ f Le |cos| dω, without recursion.
 
-use super::{Drawn, Event, Method, Observer, Walk, direct_light, first_surface, scatter, sees_lights};
-use crate::bsdf::Bsdf;
+use super::{Event, Method, Observer, Walk, direct_light, first_surface, sees_lights, strategy};
+use crate::bsdf::{Bsdf, Pdf};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -16,7 +16,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     sample.radiance = walk.emission(method, event, &vertex, watch);
     let Event::Surface = event else { return sample };
     let interface = walk.interface(method, &vertex, sampler);
-    let shading = method.scene.shade(&vertex, &interface, walk.lane, &mut scratch);
+    let shading = walk.shade(method, sampler, &vertex, &interface, &mut scratch);
     watch.vertex(0, ray, &vertex, Some(&shading), walk.beta);
     first_surface(&mut sample, ray, &shading);
     if method.max_depth > 0 {
@@ -33,23 +33,21 @@ pub(super) fn reflected<O: Observer>(
     shading: &Shading,
     sampler: &mut Sampler,
     watch: &mut O,
-    keep: impl Fn(Drawn) -> bool,
+    keep: impl Fn(Pdf) -> bool,
 ) -> Spectrum {
     let mut sum = Spectrum::ZERO;
     if shading.bsdf.is_empty() {
         return sum;
     }
     let u = walk.numbers(sampler);
-    let next = scatter::draw(method, walk, shading, &u, sampler);
 
     // By light.
     if sees_lights(shading, method.scene) {
-        let stray = next.and_then(|next| next.stray);
-        sum += direct_light(method, walk, shading, stray, &u, watch);
+        sum += direct_light(method, walk, shading, &u, watch);
     }
 
     // By direction, as far as the first surface.
-    if let Some(next) = next.filter(|next| keep(next.drawn)) {
+    if let Some(next) = strategy::sample(method, shading, &u).filter(|next| keep(next.pdf)) {
         let (mut walk, mut end) = (walk.clone(), Vertex::NOWHERE);
         walk.scatter(shading, &next, &mut ());
         let event = walk.advance(method, sampler, &mut end, watch);

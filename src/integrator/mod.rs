@@ -15,26 +15,23 @@ mod medium;
 pub mod path;
 pub mod raycast;
 pub mod replay;
-mod scatter;
 mod solver;
 pub mod strategy;
 mod walk;
 pub mod whitted;
 
 pub use classes::Classes;
-pub use scatter::Stray;
 pub use solver::Solver;
 pub use strategy::Drawn;
 pub use walk::{Event, Numbers, Walk};
 
-use crate::bsdf::{Pdf, Transport};
+use crate::bsdf::Pdf;
 use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
 use crate::light::Receiver;
 use crate::math::Ray;
-use crate::medium::MediumStack;
 use crate::sampler::Sampler;
-use crate::scene::{Scene, Shading, Vertex};
+use crate::scene::{CosineEval, MediaAbout, Scene, Shading, Vertex};
 use crate::spectrum::Spectrum;
 
 /// What an estimator needs to know beside the ray.
@@ -48,8 +45,8 @@ pub struct Method<'a> {
     pub strategy: Strategy,
     /// Most reflections and refractions of a path.
     pub max_depth: u32,
-    /// The media about the camera.
-    pub media: MediumStack,
+    /// The media about the camera, of whose rays each may begin elsewhere.
+    pub media: MediaAbout,
     /// What was prepared before the first ray.
     pub solver: Solver,
 }
@@ -131,7 +128,7 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, shading: &Shading) {
     sample.alpha = 1.0;
     sample.depth = (vertex.surface.p - ray.o).length();
     sample.normal = if vertex.front { shading.frame.n } else { -shading.frame.n }.into();
-    sample.albedo = shading.bsdf.albedo(shading.wo);
+    sample.albedo = shading.albedo();
 }
 
 /// β times the radiance that the light sampler finds for a vertex: one light, one shadow ray,
@@ -142,12 +139,11 @@ fn first_surface(sample: &mut PixelSample, ray: &Ray, shading: &Shading) {
 ///
 /// w = 1 where only lights are sampled, the power heuristic of the light's and the BSDF's density where both are.
 /// Strategies that sample directions alone still need this for lights that no direction finds (points, parallel
-/// light). `stray` is what the draw of the path sent into the surface (`scatter.rs`).
+/// light).
 pub fn direct_light<O: Observer>(
     method: &Method,
     walk: &Walk,
     shading: &Shading,
-    stray: Option<Stray>,
     u: &Numbers,
     watch: &mut O,
 ) -> Spectrum {
@@ -156,17 +152,8 @@ pub fn direct_light<O: Observer>(
     let Some((index, light)) = scene.lights.sample(&receiver, u.light_choice, u.light, &scene.textures) else {
         return Spectrum::ZERO;
     };
-    // f |cos θ|, of what strayed too, and the density of the other sampler.
-    let wi = shading.frame.to_local(light.wi);
-    let (mut f, mut specular, mut pdf) = (Spectrum::ZERO, Spectrum::ZERO, shading.stray_pdf(light.wi));
-    if shading.agrees(light.wi, wi) {
-        let eval = shading.bsdf.eval(shading.wo, wi, Transport::Radiance);
-        (f, specular, pdf) = (eval.f * wi.z.abs(), eval.specular * wi.z.abs(), pdf + eval.pdf);
-    }
-    if let Some(stray) = stray {
-        let (all, part) = stray.towards(shading, light.wi);
-        (f, specular) = (f + all, specular + part);
-    }
+    // f |cos θ|, and the density of the other sampler.
+    let CosineEval { f_cos, specular, pdf } = shading.eval(light.wi);
     // How much of this light is the light sampler's share?
     let share = match (light.pdf, method.strategy) {
         (Pdf::Discrete(p), _) => 1.0 / p,
@@ -174,7 +161,7 @@ pub fn direct_light<O: Observer>(
         (Pdf::SolidAngle(light_pdf), Strategy::Light) => 1.0 / light_pdf,
         (Pdf::SolidAngle(_), Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => return Spectrum::ZERO,
     };
-    if f.is_black() {
+    if f_cos.is_black() {
         return Spectrum::ZERO;
     }
     // The shadow ray.
@@ -188,10 +175,10 @@ pub fn direct_light<O: Observer>(
     if !media.is_empty() {
         arriving *= scene.media.transmittance(media, light.distance);
     }
-    let light = walk.beta * (f * arriving);
+    let light = walk.beta * (f_cos * arriving);
     if O::CLASSES {
         // Each sheet on the way is a specular transmission.
-        let classes = (0..seen.sheets).fold(walk.classes.reflected(f, specular), |c, _| c.reflected(f, f));
+        let classes = (0..seen.sheets).fold(walk.classes.reflected(f_cos, specular), |c, _| c.reflected(f_cos, f_cos));
         watch.light(light, &classes);
     }
     light
@@ -242,7 +229,7 @@ fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
 
 /// Whether light that the light sampler finds is reflected.
 fn sees_lights(shading: &Shading, scene: &Scene) -> bool {
-    (shading.bsdf.has_smooth() || shading.is_bent()) && !scene.lights.is_empty()
+    shading.bsdf.has_smooth() && !scene.lights.is_empty()
 }
 
 #[cfg(test)]

@@ -1,6 +1,6 @@
 //! The path tracer: equation (2), recursion and all, by one random path a sample.
 
-use super::{Event, Method, Observer, Walk, direct_light, first_surface, scatter, sees_lights};
+use super::{Event, Method, Observer, Walk, direct_light, first_surface, sees_lights, strategy};
 use crate::bsdf::Bsdf;
 use crate::film::PixelSample;
 use crate::math::Ray;
@@ -21,7 +21,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         let Event::Surface = event else { break };
 
         let interface = walk.interface(method, &vertex, sampler);
-        let shading = method.scene.shade(&vertex, &interface, walk.lane, &mut scratch);
+        let shading = walk.shade(method, sampler, &vertex, &interface, &mut scratch);
         watch.vertex(walk.depth, &walk.ray, &vertex, Some(&shading), walk.beta);
         if walk.depth == 0 {
             first_surface(&mut sample, &walk.ray, &shading);
@@ -29,16 +29,14 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         if walk.depth == method.max_depth || shading.bsdf.is_empty() {
             break;
         }
-        let next = scatter::draw(method, &walk, &shading, &u, sampler);
 
         // ∫ by light
         if sees_lights(&shading, method.scene) {
-            let stray = next.and_then(|next| next.stray);
-            sample.radiance += direct_light(method, &walk, &shading, stray, &u, watch);
+            sample.radiance += direct_light(method, &walk, &shading, &u, watch);
         }
 
         // ∫ by BSDF
-        let Some(next) = next else { break };
+        let Some(next) = strategy::sample(method, &shading, &u) else { break };
         walk.scatter(&shading, &next, watch);
 
         // Roulette

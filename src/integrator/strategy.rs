@@ -1,9 +1,11 @@
 //! How the directions of the hemisphere are drawn.
 
-use super::Method;
-use crate::bsdf::{Bsdf, Pdf, Sample, Transport};
+use super::{Method, Numbers};
+use crate::bsdf::Pdf;
 use crate::desc::Strategy;
 use crate::light::Receiver;
+use crate::math::{Frame, renormalize};
+use crate::scene::{DirectionSample, Shading};
 use glam::Vec3;
 use std::f32::consts::{PI, TAU};
 
@@ -24,59 +26,57 @@ pub enum Drawn {
 }
 
 impl Drawn {
-    /// From the density of a draw at the surface `from`.
+    /// With the density of a draw at the vertex of `shading`.
     #[inline]
-    pub fn new(pdf: Pdf, from: Receiver) -> Self {
+    pub fn new(pdf: Pdf, shading: &Shading) -> Self {
         match pdf {
-            Pdf::SolidAngle(pdf) => Self::Smooth { pdf, from },
+            Pdf::SolidAngle(pdf) => Self::Smooth { pdf, from: shading.receiver() },
             Pdf::Discrete(_) => Self::Delta,
         }
     }
 }
 
-/// A direction for the recursion, drawn as the method's strategy says; `wo` local.
+/// A direction for the recursion, drawn as the method's strategy says.
 #[inline(always)]
-pub fn sample(method: &Method, bsdf: &Bsdf, wo: Vec3, choice: f32, u: [f32; 2]) -> Option<Sample> {
+pub fn sample(method: &Method, shading: &Shading, u: &Numbers) -> Option<DirectionSample> {
     match method.strategy {
-        Strategy::Bsdf | Strategy::Light | Strategy::Mis => bsdf.sample(wo, choice, u, Transport::Radiance),
-        Strategy::Uniform => blind(bsdf, wo, choice, u, uniform_hemisphere),
-        Strategy::Cosine => blind(bsdf, wo, choice, u, cosine_hemisphere),
+        Strategy::Bsdf | Strategy::Light | Strategy::Mis => shading.sample(u.lobe_choice, u.lobe),
+        Strategy::Uniform => blind(shading, u, uniform_hemisphere),
+        Strategy::Cosine => blind(shading, u, cosine_hemisphere),
     }
 }
 
 /// Draws a direction without looking at the BSDF: delta lobes keep their own draws, the rest takes `hemisphere`
 /// above the surface, or on either side with equal probability where the BSDF transmits.
 #[inline(never)]
-fn blind(
-    bsdf: &Bsdf,
-    wo: Vec3,
-    choice: f32,
-    u: [f32; 2],
-    hemisphere: impl Fn([f32; 2]) -> (Vec3, f32),
-) -> Option<Sample> {
+fn blind(shading: &Shading, u: &Numbers, hemisphere: impl Fn([f32; 2]) -> (Vec3, f32)) -> Option<DirectionSample> {
+    let (bsdf, choice) = (shading.bsdf, u.lobe_choice);
     let delta = bsdf.delta_probability();
     if choice < delta {
-        return bsdf.sample_delta(wo, choice / delta, Transport::Radiance);
+        return shading.sample_delta(choice / delta);
     }
     if !bsdf.has_smooth() {
         return None;
     }
     let side = (choice - delta) / (1.0 - delta);
-    let (mut wi, mut pdf) = hemisphere(u);
+    let (mut wi, mut pdf) = hemisphere(u.lobe);
     pdf *= 1.0 - delta;
     if bsdf.transmits() {
         pdf *= 0.5;
     }
-    if (wo.z < 0.0) != (bsdf.transmits() && side < 0.5) {
+    if !shading.vertex.front != (bsdf.transmits() && side < 0.5) {
         wi.z = -wi.z;
     }
     if pdf == 0.0 {
         return None;
     }
-    let eval = bsdf.eval(wo, wi, Transport::Radiance);
-    let k = wi.z.abs() / pdf;
+    let frame = if shading.is_bent() { Frame::from_z(shading.vertex.surface.ng) } else { shading.frame };
+    let wi = renormalize(frame.to_world(wi));
+    let eval = shading.eval(wi);
+    let k = 1.0 / pdf;
     // Russian roulette keeps η² out of its decision where the ray is bent; a blind draw need not know η.
-    Some(Sample { wi, weight: eval.f * k, specular: eval.specular * k, pdf: Pdf::SolidAngle(pdf), eta: 1.0 })
+    let (weight, specular, pdf) = (eval.f_cos * k, eval.specular * k, Pdf::SolidAngle(pdf));
+    Some(DirectionSample { wi, weight, specular, pdf, eta: 1.0, straight: false })
 }
 
 fn uniform_hemisphere(u: [f32; 2]) -> (Vec3, f32) {

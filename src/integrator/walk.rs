@@ -1,11 +1,11 @@
 //! One random walk from the camera, and its next step.
 
-use super::scatter::Scattered;
 use super::{Classes, Drawn, Method, Observer, emitted, environment, medium};
+use crate::bsdf::Bsdf;
 use crate::math::Ray;
 use crate::medium::MediumStack;
 use crate::sampler::Sampler;
-use crate::scene::{Departure, MediumInterface, Shading, Vertex};
+use crate::scene::{Departure, DirectionSample, MediumInterface, Shading, Vertex};
 use crate::spectrum::Spectrum;
 
 /// A path as far as it has come: all that its next step depends on. A copy is a second path that begins with the same
@@ -76,7 +76,7 @@ impl Walk {
         Self {
             ray: Ray { o: ray.o, d: ray.d, t_max: ray.t_max },
             excluded: Departure::NOWHERE,
-            media: method.media.clone(),
+            media: method.scene.media_at(&method.media, ray.o),
             lane: None,
             beta: Spectrum::ONE,
             eta_scale: 1.0,
@@ -100,13 +100,6 @@ impl Walk {
         self.seek(sampler, NUMBERS);
         let [light_choice, lobe_choice] = sampler.next_2d();
         Numbers { light_choice, lobe_choice, light: sampler.next_2d(), lobe: sampler.next_2d() }
-    }
-
-    /// The pair of numbers for light that a bent normal leaks.
-    #[inline]
-    pub(super) fn leak_numbers(&self, sampler: &mut Sampler) -> [f32; 2] {
-        self.seek(sampler, LEAK);
-        sampler.next_2d()
     }
 
     /// Follows the ray to the next event. `vertex` is written where a surface is met. Opacities on the way draw from a branch
@@ -156,22 +149,41 @@ impl Walk {
         interface
     }
 
+    /// The BSDF at the vertex, between the media of `interface`; `scratch` holds lobes that vary over the surface.
+    #[inline(always)]
+    pub fn shade<'a>(
+        &self,
+        method: &Method<'a>,
+        sampler: &mut Sampler,
+        vertex: &'a Vertex,
+        interface: &'a MediumInterface,
+        scratch: &'a mut Bsdf,
+    ) -> Shading<'a> {
+        let mut shading = method.scene.shade(vertex, interface, self.lane, scratch);
+        if shading.is_bent() {
+            self.seek(sampler, LEAK);
+            shading.leak = sampler.next_2d();
+        }
+        shading
+    }
+
     /// Goes on as `next` was drawn at the vertex of `shading`.
     #[inline(always)]
-    pub(super) fn scatter<O: Observer>(&mut self, shading: &Shading, next: &Scattered, watch: &mut O) {
+    pub fn scatter<O: Observer>(&mut self, shading: &Shading, next: &DirectionSample, watch: &mut O) {
+        let drawn = Drawn::new(next.pdf, shading);
         self.beta *= next.weight;
         self.eta_scale *= next.eta * next.eta;
         // Light sampling looks through thin sheets. What passes one straight on meets lights as if it were not there: as
         // the direction was drawn, or the light would count twice.
         if !next.straight {
-            self.drawn = next.drawn;
+            self.drawn = drawn;
         }
-        if let Some(across) = shading.interface.crossed(shading.vertex, next.ray.d) {
+        if let Some(across) = shading.interface.crossed(shading.vertex, next.wi) {
             self.media = across.clone();
         }
-        (self.ray, self.excluded) = (next.ray, shading.vertex.departure);
+        (self.ray, self.excluded) = (shading.ray(next.wi), shading.vertex.departure);
         self.depth += 1;
-        watch.drawn(next.drawn, self.beta);
+        watch.drawn(drawn, self.beta);
         if O::CLASSES {
             self.classes = self.classes.reflected(next.weight, next.specular);
         }

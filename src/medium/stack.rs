@@ -12,8 +12,9 @@
 use super::Interior;
 use arrayvec::ArrayVec;
 
-/// Most interiors about one point; what is entered beyond is not remembered.
-pub const MOST_NESTED: usize = 6;
+/// Most interiors about one point. What is entered beyond is not remembered, and whoever enters counts it
+/// ([`MediumStack::is_full`]).
+pub const MOST_NESTED: usize = 12;
 
 /// The interiors about a point: ascending in priority, and among equals in the order in which they were entered. Numbers
 /// index a list of [`Interior`]s.
@@ -36,6 +37,12 @@ impl MediumStack {
     #[inline]
     pub fn is_empty(&self) -> bool {
         self.0.is_empty()
+    }
+
+    /// What is entered next is not remembered.
+    #[inline]
+    pub fn is_full(&self) -> bool {
+        self.0.is_full()
     }
 
     /// The interior that is there: the one of highest priority.
@@ -144,12 +151,12 @@ mod tests {
 
     #[test]
     fn what_does_not_fit_is_not_remembered() {
-        let all = interiors([0; 10]);
+        let all = interiors([0; MOST_NESTED + 4]);
         let mut stack = MediumStack::default();
-        for id in 0..10 {
+        for id in 0..MOST_NESTED as u32 + 4 {
             stack = stack.entered(id, &all);
         }
         assert_eq!(stack.current(), Some(MOST_NESTED as u32 - 1));
-        assert!(!stack.left(9).1);
+        assert!(stack.is_full() && !stack.left(MOST_NESTED as u32 + 3).1);
     }
 }

@@ -250,7 +250,7 @@ impl<'a> Tracer<'a> {
                 integrator: settings.integrator,
                 strategy: settings.strategy,
                 max_depth: settings.max_depth.unwrap_or(u32::MAX),
-                media: scene.media_about(camera.middle()),
+                media: scene.media_near(camera.middle()),
                 solver: Solver::prepare(scene, settings.integrator),
             },
             camera,

@@ -8,14 +8,17 @@ use crate::medium::{Crossing, Interior, MOST_NESTED, MediumStack};
 use crate::spectrum::Spectrum;
 use arrayvec::ArrayVec;
 use glam::Vec3A;
+use std::sync::atomic::{AtomicU64, Ordering};
 
 /// Of a material whose surfaces enclose nothing.
 const NONE: u32 = u32::MAX;
 
 /// What the materials enclose.
-#[derive(Clone, Debug, Default)]
+#[derive(Debug, Default)]
 pub struct Media {
     interiors: Vec<Interior>,
+    /// Times that a path entered more interiors than it can remember.
+    forgotten: AtomicU64,
     /// Interior of every material. Materials with equal interiors share one, so that a body may wear several.
     of_material: Vec<u32>,
 }
@@ -75,7 +78,11 @@ impl Media {
         if self.interiors.is_empty() {
             return None;
         }
-        self.of(vertex.material).map(|id| stack.cross(id, vertex.front, &self.interiors))
+        let id = self.of(vertex.material)?;
+        if vertex.front && stack.is_full() {
+            self.forgotten.fetch_add(1, Ordering::Relaxed);
+        }
+        Some(stack.cross(id, vertex.front, &self.interiors))
     }
 
     /// The media behind a vertex that is hidden in something of higher priority; `None` where it is not. What emits is never hidden,
@@ -128,10 +135,53 @@ impl Media {
     }
 }
 
+/// The media about a point, from which those about other points nearby are found.
+#[derive(Clone, Debug)]
+pub struct MediaAbout {
+    p: Vec3A,
+    media: MediumStack,
+}
+
 impl Scene {
+    /// Times that a path entered an interior within [`MOST_NESTED`] others, and forgot it: there the image is wrong.
+    pub fn forgotten_interiors(&self) -> u64 {
+        self.media.forgotten.load(Ordering::Relaxed)
+    }
+
+    /// The media about the point `p` and whatever is near it, such as a camera's lens or window.
+    pub fn media_near(&self, p: Vec3A) -> MediaAbout {
+        MediaAbout { p, media: self.media_about(p) }
+    }
+
+    /// The media about the point `p`: those of the place `near` it, changed by what a straight way from there to `p` enters
+    /// and leaves.
+    #[inline]
+    pub fn media_at(&self, near: &MediaAbout, p: Vec3A) -> MediumStack {
+        if self.media.interiors.is_empty() || p == near.p { near.media.clone() } else { self.media_across(near, p) }
+    }
+
+    #[inline(never)]
+    fn media_across(&self, near: &MediaAbout, p: Vec3A) -> MediumStack {
+        let (mut media, mut excluded) = (near.media.clone(), Departure::NOWHERE);
+        let mut ray = Ray { o: near.p, d: p - near.p, t_max: 1.0 };
+        while let Some(hit) = self.geometry.nearest(&ray, excluded) {
+            let vertex = self.vertex(&ray, &hit);
+            if self.coverage(&vertex) >= 0.5
+                && let Some(crossing) = self.media.cross(&media, &vertex)
+            {
+                media = crossing.across;
+            }
+            (ray, excluded) = (self.beyond(&ray, &vertex), vertex.departure);
+            if ray.t_max <= 0.0 {
+                break;
+            }
+        }
+        media
+    }
+
     /// The interiors about a point: those whose surfaces are left more often than entered on the way to infinity, on
     /// every one of several ways, so that open surfaces enclose nothing.
-    pub fn media_about(&self, p: Vec3A) -> MediumStack {
+    fn media_about(&self, p: Vec3A) -> MediumStack {
         /// Far from the axes and from each other.
         const WAYS: [Vec3A; 7] = [
             Vec3A::new(0.31, 0.86, 0.41),

@@ -1,5 +1,6 @@
 //! What is traced: geometry behind two questions, materials, textures and lights, compiled from a description.
 
+mod bent;
 mod compile;
 mod geometry;
 mod info;
@@ -10,9 +11,9 @@ mod shading;
 
 pub use geometry::Geometry;
 pub use info::Info;
-pub use media::{Media, MediumInterface};
+pub use media::{Media, MediaAbout, MediumInterface};
 pub use object::{Departure, Hit};
-pub use shading::Shading;
+pub use shading::{CosineEval, DirectionSample, Shading};
 
 use crate::bsdf::Bsdf;
 use crate::bvh::Obstacle;

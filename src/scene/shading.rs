@@ -1,33 +1,67 @@
-//! A vertex with its shading frame and lobes.
+//! The BSDF at a vertex, in world space.
 
 use super::{MediumInterface, Vertex};
-use crate::bsdf::Bsdf;
+use crate::bsdf::{Bsdf, Eval, Pdf, Sample, Transport};
 use crate::light::{Facing, Receiver};
 use crate::material::Material;
-use crate::math::{Frame, Ray, offset_origin};
+use crate::math::{Frame, Ray, offset_origin, renormalize};
+use crate::spectrum::Spectrum;
 use crate::texture::Textures;
+use arrayvec::ArrayVec;
 use glam::{Vec3, Vec3A};
 
-/// The BSDF at a vertex. The frame's z is the shading normal on the front side.
+/// The BSDF at a vertex for light that leaves towards the vertex's `wo`. It is that of the material, about the shading normal;
+/// where this is bent away from the geometric normal, it is f′ of `bent.rs`.
 #[derive(Clone, Copy, Debug)]
 pub struct Shading<'a> {
     /// Where.
     pub vertex: &'a Vertex,
     /// The media on both sides.
     pub interface: &'a MediumInterface,
-    /// Shading frame.
+    /// Shading frame: z is the shading normal, on the front side.
     pub frame: Frame,
-    /// Towards where the ray came from, local.
+    /// Towards where the ray came from, local, as the shading normal sees it: on the front of it where the ray came from
+    /// the front of the surface.
     pub wo: Vec3,
-    /// The lobes.
+    /// The lobes, about the shading normal.
     pub bsdf: &'a Bsdf,
-    /// (1 − cos β)/2 for a shading normal at the angle β to the geometric one: the share of Lambert's light that it sends
-    /// into the surface (the rest is the form factor of a tilted plane to the sky).
-    stray: f32,
+    /// n·g, the cosine of the angle between shading and geometric normal; 1 where they differ by no more than rounding.
+    pub(super) cos_bend: f32,
+    /// Two random numbers of this visit, to be set where the normal is bent: the angle about the geometric normal by which
+    /// leaked light is turned, and the choice of a way out when a direction is drawn.
+    pub leak: [f32; 2],
+}
+
+/// f |cos θi| and density for a pair of directions, of all but deltas.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct CosineEval {
+    /// f |cos θi| \[1/sr\].
+    pub f_cos: Spectrum,
+    /// The part of it that specular lobes give.
+    pub specular: Spectrum,
+    /// Density \[1/sr\] with which [`Shading::sample`] draws the direction.
+    pub pdf: f32,
+}
+
+/// A direction drawn from the BSDF at a vertex.
+#[derive(Clone, Copy, Debug)]
+pub struct DirectionSample {
+    /// The direction, world space, unit.
+    pub wi: Vec3A,
+    /// f |cos θi| / pdf.
+    pub weight: Spectrum,
+    /// The part of it that specular lobes give.
+    pub specular: Spectrum,
+    /// Density or probability of the draw.
+    pub pdf: Pdf,
+    /// Relative index of refraction crossed.
+    pub eta: f32,
+    /// It passes a smooth thin sheet straight on, which light sampling looks through.
+    pub straight: bool,
 }
 
 impl<'a> Shading<'a> {
-    /// Evaluates the material; lobes that vary over the surface are put into `scratch`.
+    /// Evaluates the material in vacuum; lobes that vary over the surface are put into `scratch`.
     #[inline]
     pub fn new(material: &'a Material, vertex: &'a Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
         static VACUUM: MediumInterface = MediumInterface::VACUUM;
@@ -45,24 +79,80 @@ impl<'a> Shading<'a> {
         eta: Option<f32>,
         scratch: &'a mut Bsdf,
     ) -> Self {
+        /// 1 − cos of an angle that is rounding.
+        const ROUNDING: f32 = 2e-6;
         let s = &vertex.surface;
         let ns = material.shading_normal(s, textures).unwrap_or(s.ns);
-        let ns = facing(ns, vertex.wo, vertex.front);
         let frame = Frame::from_z_tangent(ns, s.tangent, s.handedness);
-        let wo = frame.to_local(vertex.wo);
-        let stray = (0.5 - 0.5 * ns.dot(s.ng)).max(0.0);
-        Self { vertex, interface, frame, wo, bsdf: material.bsdf_between(s, wo, textures, eta, scratch), stray }
+        let wo = seen(frame.to_local(vertex.wo), vertex.front);
+        let bsdf = material.bsdf_between(s, wo, textures, eta, scratch);
+        let cos_bend = ns.dot(s.ng);
+        let cos_bend = if 1.0 - cos_bend > ROUNDING { cos_bend } else { 1.0 };
+        Self { vertex, interface, frame, wo, bsdf, cos_bend, leak: [0.5; 2] }
     }
 
-    /// Whether the world direction `wi` (`local` in the frame) lies on the same side of the surface and of the
-    /// shading normal. Where they disagree light would leak through the surface, or reflection into it.
+    /// f |cos θi| and density towards the world direction `wi`.
+    #[inline(always)]
+    pub fn eval(&self, wi: Vec3A) -> CosineEval {
+        let (local, cos) = (self.frame.to_local(wi), wi.dot(self.vertex.surface.ng));
+        if self.is_bent() && !self.is_unchanged(cos, local.z) {
+            return self.eval_bent(wi);
+        }
+        if cos * local.z <= 0.0 {
+            return CosineEval::default();
+        }
+        CosineEval::new(self.bsdf.eval(self.wo, local, Transport::Radiance), local.z.abs())
+    }
+
+    /// Draws a direction: `choice` picks the lobe, `u` the direction in it.
+    #[inline(always)]
+    pub fn sample(&self, choice: f32, u: [f32; 2]) -> Option<DirectionSample> {
+        self.leave(self.bsdf.sample(self.wo, choice, u, Transport::Radiance)?)
+    }
+
+    /// Draws from the delta lobes alone, with the probability that [`Self::sample`] has.
+    pub fn sample_delta(&self, choice: f32) -> Option<DirectionSample> {
+        self.leave(self.bsdf.sample_delta(self.wo, choice, Transport::Radiance)?)
+    }
+
+    /// Where a draw about the shading normal leaves the surface.
+    #[inline(always)]
+    fn leave(&self, draw: Sample) -> Option<DirectionSample> {
+        let wi = renormalize(self.frame.to_world(draw.wi));
+        let (cos, is_delta) = (wi.dot(self.vertex.surface.ng), matches!(draw.pdf, Pdf::Discrete(_)));
+        if self.is_bent() && (is_delta || !self.is_unchanged(cos, draw.wi.z)) {
+            return self.leave_bent(&draw);
+        }
+        let straight = self.is_straight(&draw) && self.bsdf.straight(self.wo).is_some();
+        (cos * draw.wi.z > 0.0).then(|| DirectionSample::new(wi, &draw, draw.pdf, straight))
+    }
+
+    /// A delta passes straight on.
     #[inline]
-    pub fn agrees(&self, wi: Vec3A, local: Vec3) -> bool {
-        wi.dot(self.vertex.surface.ng) * local.z > 0.0
+    pub(super) fn is_straight(&self, draw: &Sample) -> bool {
+        matches!(draw.pdf, Pdf::Discrete(_)) && draw.eta == 1.0 && draw.wi == -self.wo
     }
 
-    /// Who asks for light here: the half-space above the shading normal on the side of `wo` (above the surface, where the
-    /// normal is bent: strayed light leaves there), or both where something is transmitted.
+    /// Every delta direction with its f |cos θ|, for branching: the weight is divided by no probability, and the pdf
+    /// is `Discrete(1)`.
+    pub fn deltas(&self) -> ArrayVec<DirectionSample, 20> {
+        let mut all = ArrayVec::new();
+        for draw in self.bsdf.deltas(self.wo, Transport::Radiance) {
+            if self.is_bent() {
+                all.extend(self.ways_out(&draw));
+            } else {
+                all.extend(self.leave(draw));
+            }
+        }
+        all
+    }
+
+    /// Directional albedo, reflection and transmission together.
+    pub fn albedo(&self) -> Spectrum {
+        self.bsdf.albedo(self.wo)
+    }
+
+    /// Who asks for light here: the half-space above the surface on the side of `wo`, or both where something is transmitted.
     #[inline]
     pub fn receiver(&self) -> Receiver {
         let n = if self.is_bent() { self.vertex.surface.ng } else { self.frame.n };
@@ -77,48 +167,44 @@ impl<'a> Shading<'a> {
     /// The shading normal differs from the geometric one by more than rounding.
     #[inline]
     pub fn is_bent(&self) -> bool {
-        self.stray > 1e-6
-    }
-
-    /// Density \[1/sr\] that stands for strayed light towards the world direction `wi`.
-    #[inline]
-    pub fn stray_pdf(&self, wi: Vec3A) -> f32 {
-        self.stray * wi.dot(self.vertex.surface.ng).abs() * std::f32::consts::FRAC_1_PI
+        self.cos_bend < 1.0
     }
 
     /// The ray that leaves along the world direction `wi`, off the surface by its error bound.
     #[inline]
-    pub fn leave(&self, wi: Vec3A) -> Ray {
+    pub fn ray(&self, wi: Vec3A) -> Ray {
         let s = &self.vertex.surface;
         Ray::new(offset_origin(s.p, s.p_error, s.ng, wi), wi)
     }
 }
 
-/// A shading normal that sees `wo` from the side from which the surface does. Interpolated and mapped normals near a
-/// silhouette may look away; they are turned towards `wo` until they see it at a grazing angle, instead of leaving
-/// a black rim.
-#[inline]
-fn facing(ns: Vec3A, wo: Vec3A, front: bool) -> Vec3A {
-    /// Cosine of the grazing angle.
-    const GRAZING: f32 = 0.01;
-    let side = if front { 1.0 } else { -1.0 };
-    let cos = ns.dot(wo) * side;
-    if cos > 0.0 {
-        return ns;
+impl CosineEval {
+    #[inline]
+    fn new(eval: Eval, cos: f32) -> Self {
+        Self { f_cos: eval.f * cos, specular: eval.specular * cos, pdf: eval.pdf }
     }
-    (ns + wo * (side * (GRAZING - cos))).normalize_or(wo * side)
+
+    /// Adds `share` of another.
+    pub(super) fn add(&mut self, eval: Eval, cos: f32, share: f32) {
+        let k = cos * share;
+        self.f_cos += eval.f * k;
+        self.specular += eval.specular * k;
+        self.pdf += eval.pdf * share;
+    }
 }
 
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn normals_that_look_away_are_turned_to_a_grazing_view() {
-        let wo = Vec3A::new(0.6, 0.0, 0.8);
-        let away = Vec3A::new(-0.9, 0.1, 0.2).normalize();
-        assert!(facing(away, wo, true).dot(wo) > 0.0);
-        assert!(facing(-away, wo, false).dot(wo) < 0.0);
-        assert_eq!(facing(Vec3A::Z, wo, true), Vec3A::Z);
+impl DirectionSample {
+    #[inline]
+    pub(super) fn new(wi: Vec3A, draw: &Sample, pdf: Pdf, straight: bool) -> Self {
+        Self { wi, weight: draw.weight, specular: draw.specular, pdf, eta: draw.eta, straight }
     }
+}
+
+/// The local direction `w` as a facet sees it from its front, or from its back: reflected in its plane where it lies on the other
+/// side, and never quite in the plane.
+#[inline]
+pub(super) fn seen(w: Vec3, front: bool) -> Vec3 {
+    const LEAST: f32 = 1e-6;
+    let z = w.z.abs().max(LEAST);
+    Vec3::new(w.x, w.y, if front { z } else { -z })
 }

@@ -126,7 +126,7 @@ fn whitted(scene: &Scene, trial: &Trial, census: &mut Census, found: &mut Findin
 fn restricted(scene: &Scene, settings: &Settings, samples: u64) -> Replicated {
     let (integrator, strategy, max_depth) = (Integrator::Path, settings.strategy, u32::MAX);
     let camera = Camera::new(&scene.cameras[settings.camera], settings.size);
-    let media = scene.media_about(camera.middle());
+    let media = scene.media_near(camera.middle());
     let solver = Solver::prepare(scene, integrator);
     let method = Method { scene, integrator, strategy, max_depth, media, solver };
     let seed = hash(&[settings.seed, 2]);

@@ -1,5 +1,6 @@
 //! BSDFs and microsurfaces: rows A1 to A5, T5, T6, and the law of densities.
 
+mod bent;
 mod density;
 mod energy;
 mod film;
@@ -14,7 +15,7 @@ use crate::verify::Task;
 
 /// Every check of lobes.
 pub(super) fn tasks() -> Vec<Task> {
-    let rows: [fn() -> Vec<Task>; 8] = [
+    let rows: [fn() -> Vec<Task>; 9] = [
         lambert::tasks,
         microsurface::tasks,
         reciprocity::tasks,
@@ -23,6 +24,7 @@ pub(super) fn tasks() -> Vec<Task> {
         fresnel::tasks,
         film::tasks,
         radiance::tasks,
+        bent::tasks,
     ];
     rows.iter().flat_map(|row| row()).collect()
 }
