@@ -39,7 +39,7 @@ pub struct Expect {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(untagged)]
 pub enum Value {
-    /// The same in R, G and B.
+    /// One number for R, G and B.
     Grey(f64),
     /// R, G, B.
     Rgb([f64; 3]),

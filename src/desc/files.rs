@@ -19,6 +19,21 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Error> {
     std::fs::read(path).map_err(fail)
 }
 
+/// A file's name as others may write it too, without the parts that change nothing: `a/b` of `./a//b`. What is read once
+/// for each name is then read once for each file, links apart.
+pub(super) fn plain(name: &str) -> String {
+    let mut parts: Vec<&str> = Vec::new();
+    for part in name.split('/') {
+        match part {
+            "" | "." => {}
+            ".." if parts.last().is_some_and(|last| *last != "..") => _ = parts.pop(),
+            _ => parts.push(part),
+        }
+    }
+    let root = if name.starts_with('/') { "/" } else { "" };
+    format!("{root}{}", parts.join("/"))
+}
+
 /// Files in memory: names with `/` between parts, and contents.
 pub type Held = &'static [(&'static str, &'static [u8])];
 
@@ -76,5 +91,18 @@ impl Folder {
             place: place.into(),
             ..e
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::plain;
+
+    #[test]
+    fn names_of_one_file_are_one() {
+        for name in ["a/b.png", "./a/b.png", "a//b.png", "a/./b.png", "c/../a/b.png"] {
+            assert_eq!(plain(name), "a/b.png");
+        }
+        assert_eq!([plain("/a"), plain("../../a"), plain(".")], ["/a", "../../a", ""]);
     }
 }

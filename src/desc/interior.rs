@@ -14,7 +14,7 @@ pub struct Interior {
 /// The index of refraction over the wavelengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Dispersion {
-    /// The same for all.
+    /// None: one index for all wavelengths.
     #[default]
     None,
     /// 1/V, V the Abbe number; the model's index is n_d. At least 0.

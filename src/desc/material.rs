@@ -105,6 +105,13 @@ impl ScalarParam {
     }
 }
 
+impl Emission {
+    /// It may emit: its factor is not black.
+    pub fn is_light(&self) -> bool {
+        self.radiance.factor.iter().any(|x| *x > 0.0)
+    }
+}
+
 impl Material {
     /// Where no mesh has vertex colours, nothing varies with them.
     pub fn ignore_vertex_colors(&mut self) {

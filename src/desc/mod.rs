@@ -4,6 +4,7 @@
 mod camera;
 mod complete;
 pub mod cube_map;
+pub(crate) mod emitters;
 mod error;
 mod expect;
 pub mod export;

@@ -19,11 +19,14 @@ use std::sync::Arc;
 /// tree is faster.
 const FEW_TRIANGLES: usize = 4096;
 
+/// Most vertices of such copies: more than triangles without any shared vertex have.
+const FEW_VERTICES: usize = 4 * FEW_TRIANGLES;
+
 impl Scene {
     /// Builds what is traced.
     ///
     /// # Errors
-    /// Where an object's transform is singular or not affine.
+    /// Where an object's transform is singular or not affine, and where instances of emissive meshes are too many lights.
     pub fn compile(desc: &desc::Scene) -> Result<Self, Error> {
         Self::compile_with(desc, Quality::default())
     }
@@ -33,6 +36,7 @@ impl Scene {
     /// # Errors
     /// As [`compile`](Self::compile).
     pub fn compile_with(desc: &desc::Scene, quality: Quality) -> Result<Self, Error> {
+        desc::emitters::check(desc)?;
         let textures = Textures::new(desc);
         let mut builder = Builder::new(desc, quality);
         for object in &desc.objects {
@@ -143,12 +147,15 @@ impl<'a> Builder<'a> {
         })?;
         let material = self.material(object);
         let written = &self.materials[material as usize];
-        let emitter = written.emission.map(|emission| Emitter::new(&emission).with_alpha(written.alpha));
+        let emission = written.emission.filter(desc::Emission::is_light);
+        let emitter = emission.map(|emission| Emitter::new(&emission).with_alpha(written.alpha));
         let flip = transform.mirrors() != object.reversed;
         match &self.desc.shapes[object.shape] {
             Shape::Mesh(mesh) => {
                 let uses = self.uses[object.shape];
-                let instanced = uses > 1 && uses * mesh.indices.len() > FEW_TRIANGLES;
+                let few = uses.saturating_mul(mesh.indices.len()) <= FEW_TRIANGLES
+                    && uses.saturating_mul(mesh.positions.len()) <= FEW_VERTICES;
+                let instanced = uses > 1 && !few;
                 let emitter = emitter.map(|emitter| {
                     let first = self.emitters.len() as u32;
                     for triangle in 0..mesh.indices.len() as u32 {
@@ -232,4 +239,52 @@ fn to_world(shared: &Arc<Mesh>, transform: &Transform) -> Arc<Mesh> {
     mesh.normals.iter_mut().for_each(|n| *n = transform.normal_to_world(*n).normalize_or_zero().into());
     mesh.tangents.iter_mut().for_each(|t| *t = m.transform_vector3(t.truncate()).normalize_or_zero().extend(t.w));
     Arc::new(mesh)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::desc::{ColorParam, Model, Sides};
+    use glam::Vec3;
+
+    /// One triangle among many vertices, at many places: kept once.
+    #[test]
+    fn vertices_are_not_copied_to_every_place() {
+        let mut positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+        positions.resize(50_000, Vec3::ONE);
+        let mesh = Mesh { positions, indices: vec![[0, 1, 2]], ..Mesh::default() };
+        let scene = desc::Scene {
+            shapes: vec![Shape::Mesh(mesh.into())],
+            materials: vec![desc::Material::new("m", Model::Absorb)],
+            objects: vec![desc::Object::new(0, 0); 100],
+            ..desc::Scene::default()
+        };
+        let compiled = Scene::compile(&scene).unwrap();
+        let info = compiled.info();
+        assert_eq!((info.instances, info.triangles), (100, 100));
+        assert!(info.mesh_bytes < 2_000_000, "{}", info.mesh_bytes);
+    }
+
+    /// Objects with an emission of their own keep the scattering and the interior of their material.
+    #[test]
+    fn an_emission_of_its_own_is_all_that_an_object_changes() {
+        let glass = Model::Dielectric {
+            ior: 1.5,
+            roughness: desc::Roughness::Alpha([0.0; 2]),
+            tint: ColorParam::constant([1.0; 3]),
+        };
+        let emission = |x| desc::Emission { radiance: ColorParam::constant([x; 3]), sides: Sides::Front, coat: None };
+        let mut scene = desc::Scene {
+            shapes: vec![Shape::Sphere { radius: 1.0 }],
+            materials: vec![desc::Material::new("glass", glass)],
+            objects: vec![desc::Object::new(0, 0); 3],
+            ..desc::Scene::default()
+        };
+        scene.objects[1].emission = Some(emission(2.0));
+        scene.objects[2].emission = Some(emission(0.0));
+        let compiled = Scene::compile(&scene).unwrap();
+        assert_eq!(compiled.materials.len(), 3);
+        assert_eq!(compiled.materials.iter().map(Material::is_emissive).collect::<Vec<_>>(), [false, true, false]);
+        assert_eq!(compiled.lights.all().len(), 1);
+    }
 }

@@ -263,6 +263,58 @@ fn few_bytes_cannot_ask_for_much_memory() {
 }
 
 #[test]
+fn few_bytes_cannot_ask_for_many_lights() {
+    // A thousand triangles, each a light, at two thousand places.
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]];
+    let mut d = Document::mesh(&corners.repeat(1000));
+    let places = d.accessor(F32, "VEC3", 2000, &vec![0; 24_000]);
+    let instances = json!({ "EXT_mesh_gpu_instancing": { "attributes": { "TRANSLATION": places } } });
+    d.set("/nodes/0", json!({ "mesh": 0, "extensions": instances }));
+    d.set("/materials", json!([{ "emissiveFactor": [0, 0, 0] }])).set("/meshes/0/primitives/0/material", json!(0));
+    assert_eq!(d.read().unwrap().objects.len(), 2000, "what does not emit is no light");
+    d.set("/materials/0/emissiveFactor", json!([1, 1, 1]));
+    d.fails("/nodes/0", "1999000 × 512 bytes are too many for a file of this size");
+
+    // Once is no multiplication.
+    d.remove("/nodes/0/extensions");
+    assert_eq!(d.read().unwrap().objects.len(), 1);
+}
+
+#[test]
+fn few_bytes_cannot_ask_for_many_copies_of_a_file() {
+    // One file by many names is read once, and grants its growth once.
+    let mut d = Document::triangle();
+    let names = ["data.bin", "./data.bin", "a/../data.bin", "%64ata.bin"];
+    let length = d.bin.len();
+    d.set("/buffers", json!(names.map(|uri| json!({ "byteLength": length, "uri": uri }))));
+    let views = (0..names.len()).map(|i| json!({ "buffer": i, "byteLength": length })).collect::<Vec<_>>();
+    d.set("/bufferViews", json!(views));
+    for i in 0..names.len() {
+        let accessor = json!({ "bufferView": i, "componentType": F32, "type": "VEC3", "count": 3 });
+        d.set(&format!("/accessors/{i}"), accessor);
+        d.set(&format!("/meshes/0/primitives/{i}/attributes/POSITION"), json!(i));
+    }
+    let read = std::cell::Cell::new(0);
+    let resolve = |name: &str, _: &str| {
+        assert_eq!(name, "data.bin");
+        read.set(read.get() + 1);
+        Ok(d.bin.clone())
+    };
+    let scene = radianza::desc::gltf::parse(&d.text(), std::path::Path::new("a.gltf"), &resolve).unwrap();
+    assert_eq!((scene.objects.len(), read.get()), (names.len(), 1));
+
+    // A camera with a long name at many nodes.
+    let nodes = 4000;
+    let camera =
+        json!({ "type": "perspective", "perspective": { "yfov": 1, "znear": 1 }, "name": "x".repeat(1 << 20) });
+    let mut d = Document::triangle();
+    d.set("/cameras", json!([camera])).set("/nodes", json!(vec![json!({ "camera": 0 }); nodes]));
+    d.set("/scenes/0/nodes", json!((0..nodes).collect::<Vec<_>>()));
+    let e = d.read().unwrap_err();
+    assert!(e.place.starts_with("/nodes/") && e.message.contains("too many for a file of this size"), "{e}");
+}
+
+#[test]
 fn few_bytes_cannot_ask_for_many_names_or_weights() {
     // A long name for each of many instances.
     let mut d = Document::triangle();

@@ -82,3 +82,35 @@ fn coats_have_a_share_a_roughness_and_normals() {
     d.set("/materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture", json!({ "index": 9 }));
     d.fails("/materials/0/extensions/KHR_materials_clearcoat/clearcoatNormalTexture/index", "texture 9");
 }
+
+/// Two models in one TOML scene: whatever the second looks up is its own, its layers included.
+#[test]
+fn models_in_a_scene_keep_their_textures() {
+    let texture = |index: usize| json!({ "index": index });
+    let extensions = json!({
+        "KHR_materials_sheen": { "sheenColorFactor": [1, 1, 1], "sheenColorTexture": texture(0), "sheenRoughnessFactor": 1, "sheenRoughnessTexture": texture(1) },
+        "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatTexture": texture(2), "clearcoatNormalTexture": texture(3) },
+        "KHR_materials_anisotropy": { "anisotropyStrength": 1, "anisotropyTexture": texture(0) },
+        "KHR_materials_iridescence": { "iridescenceFactor": 1, "iridescenceTexture": texture(1), "iridescenceThicknessTexture": texture(2) },
+        "KHR_materials_transmission": { "transmissionFactor": 1, "transmissionTexture": texture(3) },
+    });
+    let mut d = Document::material(json!({ "emissiveFactor": [1, 1, 1], "extensions": extensions }));
+    (0..4).for_each(|_| {
+        d.texture([1, 1], &[ONE]);
+    });
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["a.glb", "b.glb"] {
+        std::fs::write(folder.path().join(name), d.glb()).unwrap();
+    }
+    let path = folder.path().join("scene.toml");
+    std::fs::write(&path, "[[shape]]\ntype = 'file'\nfile = 'a.glb'\n[[shape]]\ntype = 'file'\nfile = 'b.glb'\n")
+        .unwrap();
+    let scene = radianza::desc::load(&path).unwrap();
+    let [first, second] = &scene.materials[..] else { panic!("{:?}", scene.materials) };
+    let looked_up = |m: &radianza::desc::Material| m.textures().iter().map(|t| t.texture).collect::<Vec<_>>();
+    let (first, second) = (looked_up(first), looked_up(second));
+    // The coat dims the emission, by the same texture.
+    assert_eq!(first.len(), 10);
+    let shift = scene.textures.len() / 2;
+    assert_eq!(second, first.iter().map(|t| t + shift).collect::<Vec<_>>());
+}

@@ -225,3 +225,30 @@ fn asset_meshes_load() {
     }
     assert!(seen > 0);
 }
+
+#[test]
+fn a_file_is_read_once_however_often_and_however_it_is_named() {
+    let obj = format!("{}{SQUARE}usemtl a\nf 1 2 3\n", "mtllib m.mtl\nmtllib ./m.mtl\n".repeat(100));
+    let mtl = "newmtl a\nmap_Kd p.png\nmap_d ./p.png\n";
+    let text = "[texture.a]\ntype = 'image'\nfile = 'p.png'\n[texture.b]\ntype = 'image'\nfile = './p.png'\n\
+        [[shape]]\ntype = 'file'\nfile = 'm.obj'\n[[shape]]\ntype = 'file'\nfile = './/m.obj'\n";
+    let files = folder(&[
+        ("scene.toml", text.as_bytes()),
+        ("m.obj", obj.as_bytes()),
+        ("m.mtl", mtl.as_bytes()),
+        ("p.png", &png()),
+    ]);
+    let s = load(&files.path().join("m.obj")).unwrap();
+    assert_eq!((s.materials.len(), s.images.len()), (1, 1));
+    let s = load(&files.path().join("scene.toml")).unwrap();
+    assert_eq!((s.shapes.len(), s.objects.len(), s.materials.len()), (1, 2, 1));
+    assert_eq!(s.images.len(), 2, "the scene's own, and the library's");
+}
+
+#[test]
+fn long_names_are_not_multiplied() {
+    let name = "x".repeat(1 << 20);
+    let e = obj(&format!("{SQUARE}o {name}\n{}", "usemtl a\nf 1 2 3\n".repeat(10))).unwrap_err();
+    assert_eq!((e.place.as_str(), e.kind), ("5", ErrorKind::Invalid));
+    assert!(e.message.contains("a name of 1048576 bytes"), "{e}");
+}

@@ -2,7 +2,9 @@
 
 use super::Source;
 use crate::desc::Error;
-use std::cell::Cell;
+use crate::desc::image_file::Grant;
+use std::cell::{Cell, RefCell};
+use std::collections::HashSet;
 
 /// Granted to every file \[bytes\].
 const BASE: u64 = 256 << 20;
@@ -10,23 +12,26 @@ const BASE: u64 = 256 << 20;
 const GROWTH: u64 = 256;
 /// Most bytes that are read from other files.
 const EXTERNAL: u64 = 16 << 30;
-/// Most bytes of decoded pixels.
-const PIXELS: u64 = 16 << 30;
 
 /// What is left of the three grants.
 pub(super) struct Budget {
     decoded: Cell<u64>,
     external: Cell<u64>,
-    pixels: Cell<u64>,
+    /// Files that were read, by their names.
+    files: RefCell<HashSet<String>>,
+    pixels: Grant,
 }
 
 impl Budget {
     /// For a file of so many bytes.
     pub(super) fn of(bytes: usize) -> Self {
+        let pixels = Grant::default();
+        pixels.read(bytes);
         Self {
             decoded: Cell::new(BASE + GROWTH * bytes as u64),
             external: Cell::new(EXTERNAL),
-            pixels: Cell::new(PIXELS),
+            files: RefCell::default(),
+            pixels,
         }
     }
 
@@ -47,17 +52,19 @@ impl Budget {
         self.decoded.get()
     }
 
-    /// Pays for a file that was read, and grants its growth.
-    pub(super) fn external(&self, source: Source, place: &str, bytes: usize) -> Result<(), Error> {
-        self.decoded.set(self.decoded.get().saturating_add(GROWTH * bytes as u64));
+    /// Pays for a file that was read, and grants its growth where it is read for the first time.
+    pub(super) fn external(&self, source: Source, place: &str, name: &str, bytes: usize) -> Result<(), Error> {
+        if self.files.borrow_mut().insert(name.to_owned()) {
+            self.decoded.set(self.decoded.get().saturating_add(GROWTH * bytes as u64));
+            self.pixels.read(bytes);
+        }
         let message = || format!("refers to more than {} GiB in other files", EXTERNAL >> 30);
         pay(&self.external, bytes as u64, 1).ok_or_else(|| source.invalid(place, message()))
     }
 
-    /// Pays for a decoded image.
-    pub(super) fn pixels(&self, source: Source, place: &str, bytes: u64) -> Result<(), Error> {
-        let message = || format!("the images have more than {} GiB of pixels", PIXELS >> 30);
-        pay(&self.pixels, bytes, 1).ok_or_else(|| source.invalid(place, message()))
+    /// Pays for so many bytes of decoded pixels.
+    pub(super) fn pixels(&self, source: Source, place: &str, decoded: usize) -> Result<(), Error> {
+        self.pixels.pay(decoded).map_err(|message| source.invalid(place, message))
     }
 }
 

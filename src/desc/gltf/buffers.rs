@@ -7,6 +7,7 @@ use crate::desc::Error;
 use gltf::json::buffer::View;
 use std::borrow::Cow;
 use std::cell::OnceCell;
+use std::collections::HashMap;
 
 /// All buffers of a document.
 pub(super) struct Buffers<'a> {
@@ -15,6 +16,8 @@ pub(super) struct Buffers<'a> {
     bin: Option<&'a [u8]>,
     resolve: Resolve<'a>,
     loaded: Vec<OnceCell<Cow<'a, [u8]>>>,
+    /// Of each buffer the first that has its URI, where both are read to.
+    first: Vec<usize>,
     /// Of the views that are compressed.
     decompressed: Vec<OnceCell<Vec<u8>>>,
 }
@@ -32,7 +35,11 @@ impl<'a> Buffers<'a> {
     pub(super) fn new(source: Source<'a>, bin: Option<&'a [u8]>, resolve: Resolve<'a>) -> Self {
         let loaded = source.root.buffers.iter().map(|_| OnceCell::new()).collect();
         let decompressed = source.root.buffer_views.iter().map(|_| OnceCell::new()).collect();
-        Self { source, bin, resolve, loaded, decompressed }
+        let mut by_uri = HashMap::new();
+        let buffers = source.root.buffers.iter().enumerate();
+        let first = buffers.map(|(i, b)| b.uri.as_deref().map_or(i, |uri| *by_uri.entry(uri::key(uri)).or_insert(i)));
+        let first = first.collect();
+        Self { source, bin, resolve, loaded, first, decompressed }
     }
 
     /// The buffer view `index`, which `place` refers to.
@@ -85,7 +92,7 @@ impl<'a> Buffers<'a> {
     fn buffer(&self, index: usize, place: &str, budget: &Budget) -> Result<&[u8], Error> {
         let source = self.source;
         let buffer = source.get(&source.root.buffers, index, "buffer", place)?;
-        let cell = &self.loaded[index];
+        let cell = &self.loaded[self.first[index]];
         let bytes = match cell.get() {
             Some(bytes) => bytes,
             None => {
@@ -117,7 +124,7 @@ impl<'a> Buffers<'a> {
             Uri::Data(bytes) => Ok((format!("data URI of {place}"), bytes)),
             Uri::File(name) => {
                 let bytes = (self.resolve)(&name, place)?;
-                budget.external(self.source, place, bytes.len())?;
+                budget.external(self.source, place, &name, bytes.len())?;
                 Ok((name, bytes))
             }
         }

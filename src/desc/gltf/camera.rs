@@ -45,9 +45,10 @@ impl Reader<'_> {
             }
             _ => return Err(self.source.invalid(at, "lacks the object that its type names")),
         };
-        let name = name.or(camera.name.as_deref()).unwrap_or_default().to_owned();
+        let name = name.or(camera.name.as_deref()).unwrap_or_default();
+        self.budget.decode(self.source, place, 1, size_of::<Camera>() + name.len())?;
         self.scene.cameras.push(Camera {
-            name,
+            name: name.to_owned(),
             to_world: to_world.as_mat4(),
             projection,
             resolution: None,

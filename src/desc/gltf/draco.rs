@@ -21,7 +21,7 @@ pub(super) const NAME: &str = "KHR_draco_mesh_compression";
 
 /// Bytes that the decoder may need for a triangle beside what it returns: corners, their opposites, traversal.
 const FACE: u64 = 96;
-/// The same for a vertex.
+/// Bytes that the decoder may need for a vertex beside what it returns.
 const POINT: u64 = 32;
 
 /// A primitive's stream.

@@ -88,7 +88,7 @@ impl Reader<'_> {
         }
         let decoded = image_file::decode(&name, bytes).map_err(|message| self.source.invalid(&place, message))?;
         let srgb = image_file::ktx2_is_srgb(bytes);
-        self.budget.pixels(self.source, &place, decoded.pixels.memory() as u64)?;
+        self.budget.pixels(self.source, &place, decoded.pixels.memory())?;
         self.scene.images.push(decoded.into());
         let decoded = Decoded { image: self.scene.images.len() - 1, srgb };
         self.images.insert(index, decoded);

@@ -64,7 +64,7 @@ impl Reader<'_> {
         }
         let faces: Vec<&Image> = faces.into_iter().map(|i| &*self.scene.images[i]).collect();
         let [width, height] = cube_map::panorama_size(faces[0].size[0]);
-        self.budget.pixels(self.source, &place, 16 * u64::from(width) * u64::from(height))?;
+        self.budget.pixels(self.source, &place, 16 * width as usize * height as usize)?;
         let image = cube_map::panorama(&faces).map_err(|message| self.source.invalid(&place, message))?;
         self.scene.images.push(image.into());
         self.scene.environment = Some(Environment {

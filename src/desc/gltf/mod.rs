@@ -87,7 +87,7 @@ use glam::DMat4;
 use gltf::json;
 use notes::Notes;
 use serde_json::{Value, json};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
 use uv_sets::UvSets;
@@ -157,6 +157,7 @@ pub fn parse_with(bytes: &[u8], file: &Path, resolve: Resolve, options: &Options
         textures: HashMap::new(),
         images: HashMap::new(),
         geometry: HashMap::new(),
+        lit: HashSet::new(),
         meshes: HashMap::new(),
         profiles: HashMap::new(),
         worlds: Vec::new(),
@@ -212,6 +213,8 @@ struct Reader<'a> {
     images: HashMap<usize, image::Decoded>,
     /// What a primitive is made of → shape of the scene, if a triangle is left of it.
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
+    /// Shapes that emit and are placed.
+    lit: HashSet<usize>,
     /// Mesh of the document and its pose → its primitives as shapes with materials.
     meshes: HashMap<(usize, mesh::Pose), Rc<[mesh::Part]>>,
     /// Node → world, of those that are in the scene.

@@ -2,6 +2,7 @@
 
 use super::Reader;
 use super::mesh::Pose;
+use crate::desc::emitters::{EMITTER_BYTES, emitters};
 use crate::desc::{Error, Object};
 use crate::math::Transform;
 use glam::{DMat4, DQuat, DVec3, DVec4};
@@ -164,6 +165,10 @@ impl Reader<'_> {
                 self.notes.at(place, "meshes on skins are not instanced");
             }
             self.budget.decode(self.source, place, list.len(), size_of::<Object>() + 64 + name.len())?;
+            // Every triangle that emits is a light at every place but for the first, which the mesh has paid for.
+            let emitters = emitters(&self.scene, part.shape, part.material);
+            let placed = list.len() - usize::from(emitters > 0 && self.lit.insert(part.shape)).min(list.len());
+            self.budget.decode(self.source, place, placed.saturating_mul(emitters), EMITTER_BYTES)?;
             for instance in list {
                 let to_world = if part.skinned { *instance } else { *world * *instance }.as_mat4();
                 if !to_world.is_finite() {

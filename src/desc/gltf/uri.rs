@@ -1,9 +1,11 @@
 //! What buffers and images refer to: the URI's own bytes, or a file beside the document.
 
+use crate::desc::files::plain;
 use base64::Engine;
 use base64::alphabet;
 use base64::engine::{DecodePaddingMode, GeneralPurpose, GeneralPurposeConfig};
 use percent_encoding::percent_decode_str;
+use std::borrow::Cow;
 
 /// Standard alphabet, padded or not.
 const BASE64: GeneralPurpose = GeneralPurpose::new(
@@ -40,7 +42,18 @@ pub(super) fn parse(uri: &str) -> Result<Uri, String> {
     }
     let name = percent_decode_str(uri).decode_utf8();
     let name = name.map_err(|_| format!("`{}` is not UTF-8 once percent-decoded", shorten(uri)))?;
-    Ok(Uri::File(name.into_owned()))
+    Ok(Uri::File(plain(&name)))
+}
+
+/// What all URIs of the same bytes have in common: the name of the file, or else the URI itself.
+pub(super) fn key(uri: &str) -> Cow<'_, str> {
+    if uri.starts_with("data:") {
+        return uri.into();
+    }
+    match parse(uri) {
+        Ok(Uri::File(name)) => name.into(),
+        _ => uri.into(),
+    }
 }
 
 /// `http` of `http://…` (RFC 3986, section 3.1).

@@ -4,9 +4,11 @@
 //! an error.
 
 mod exr;
+mod grant;
 mod ktx2;
 mod raster;
 
+pub(super) use grant::Grant;
 pub(super) use ktx2::is_srgb as ktx2_is_srgb;
 
 use super::{Image, Pixels};

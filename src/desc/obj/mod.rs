@@ -6,9 +6,10 @@
 mod mtl;
 
 use super::files::{self, Folder};
+use super::image_file::Grant;
 use super::{Error, Material, Mesh, Model, Object, Scene, Shape, mesh_check};
 use glam::{Vec2, Vec3, Vec4};
-use std::collections::{BTreeSet, HashMap};
+use std::collections::{BTreeSet, HashMap, HashSet};
 use std::path::Path;
 
 /// Reads an OBJ file, its material libraries and their textures.
@@ -65,6 +66,10 @@ struct Reader<'a> {
     uv: Vec<Vec2>,
     normals: Vec<Vec3>,
     materials: HashMap<String, usize>,
+    /// Material libraries that were read, by name.
+    libraries: HashSet<String>,
+    /// What their images may take.
+    pixels: Grant,
     /// Grey, for faces without a known material.
     default_material: Option<usize>,
     unknown_materials: BTreeSet<String>,
@@ -89,6 +94,8 @@ impl<'a> Reader<'a> {
             uv: Vec::new(),
             normals: Vec::new(),
             materials: HashMap::new(),
+            libraries: HashSet::new(),
+            pixels: Grant::default(),
             default_material: None,
             unknown_materials: BTreeSet::new(),
             name: String::new(),
@@ -115,7 +122,7 @@ impl<'a> Reader<'a> {
             "f" => self.face(rest)?,
             "o" | "g" => {
                 self.end_mesh().map_err(Fault::Elsewhere)?;
-                self.name = rest.trim().into();
+                self.name = name(rest)?;
             }
             "usemtl" => {
                 self.end_mesh().map_err(Fault::Elsewhere)?;
@@ -244,7 +251,10 @@ impl<'a> Reader<'a> {
 
     /// `mtllib a.mtl`. OBJ files often travel without it, so that a missing library is a note.
     fn material_library(&mut self, name: &str) -> Result<(), Fault> {
-        let name = name.replace('\\', "/");
+        let name = files::plain(&name.replace('\\', "/"));
+        if !self.libraries.insert(name.clone()) {
+            return Ok(());
+        }
         let folder = Folder::of(self.path);
         let path = match folder.resolve(&name, "") {
             Ok(path) => path,
@@ -255,9 +265,9 @@ impl<'a> Reader<'a> {
             Err(e) => return Err(Fault::Here(e.message)),
         };
         let text = files::read(&path).map_err(Fault::Elsewhere)?;
-        for (name, material) in
-            mtl::parse(&String::from_utf8_lossy(&text), &path, &folder, &mut self.scene).map_err(Fault::Elsewhere)?
-        {
+        let text = String::from_utf8_lossy(&text);
+        let library = mtl::parse(&text, &path, &folder, &self.pixels, &mut self.scene).map_err(Fault::Elsewhere)?;
+        for (name, material) in library {
             self.scene.materials.push(material);
             self.materials.insert(name, self.scene.materials.len() - 1);
         }
@@ -283,6 +293,16 @@ impl<'a> Reader<'a> {
         }
         Ok(self.scene)
     }
+}
+
+/// A name of an object, which each of its meshes will have.
+fn name(text: &str) -> Result<String, String> {
+    const MOST: usize = 4096;
+    let name = text.trim();
+    if name.len() > MOST {
+        return Err(format!("found a name of {} bytes, expected at most {MOST}", name.len()));
+    }
+    Ok(name.into())
 }
 
 /// Finite numbers, as many as `count` says.

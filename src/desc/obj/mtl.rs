@@ -11,7 +11,8 @@
 //! `Ke` is emitted radiance, `d`, `Tr` and `map_d` coverage, `norm` a normal map. Reflectances above 1 are cut at 1.
 
 use super::numbers;
-use crate::desc::files::Folder;
+use crate::desc::files::{self, Folder};
+use crate::desc::image_file::Grant;
 use crate::desc::{
     Alpha, ColorParam, Emission, Error, Image, Layers, Material, MetallicRoughness, Model, NormalMap, Roughness,
     ScalarParam, Scene, Sides, Texture, TextureRef, Wrap, image_file,
@@ -44,6 +45,7 @@ pub(super) fn parse(
     text: &str,
     path: &Path,
     folder: &Folder,
+    pixels: &Grant,
     scene: &mut Scene,
 ) -> Result<Vec<(String, Material)>, Error> {
     let mut materials: Vec<Statements> = Vec::new();
@@ -53,7 +55,7 @@ pub(super) fn parse(
         if word == "newmtl" {
             materials.push(Statements { name: rest.trim().into(), ..Statements::default() });
         } else if let Some(material) = materials.last_mut() {
-            let mut texture = |srgb| texture(rest, srgb, folder, scene);
+            let mut texture = |srgb| texture(rest, srgb, folder, pixels, scene);
             statement(material, word, rest, &mut texture)
                 .map_err(|message| Error::invalid(path, (i + 1).to_string(), format!("`{word}`: {message}")))?;
         }
@@ -103,7 +105,7 @@ fn rgb(text: &str) -> Result<[f32; 3], String> {
 }
 
 /// `[-option values] file`: the scene's texture of this file. Options are passed over.
-fn texture(text: &str, srgb: bool, folder: &Folder, scene: &mut Scene) -> Result<TextureRef, String> {
+fn texture(text: &str, srgb: bool, folder: &Folder, pixels: &Grant, scene: &mut Scene) -> Result<TextureRef, String> {
     let mut rest = text.trim();
     while rest.starts_with('-') {
         // An option takes the words up to the next option that are numbers or a switch; the file follows.
@@ -115,12 +117,14 @@ fn texture(text: &str, srgb: bool, folder: &Folder, scene: &mut Scene) -> Result
             rest = after.trim_start();
         }
     }
-    let name = rest.replace('\\', "/");
+    let name = files::plain(&rest.replace('\\', "/"));
     let image = match scene.images.iter().position(|i| i.name == name) {
         Some(image) => image,
         None => {
             let bytes = folder.read(&name, "").map_err(|e| e.message)?;
             let image: Image = image_file::decode(&name, &bytes).map_err(|e| format!("`{name}` {e}"))?;
+            pixels.read(bytes.len());
+            pixels.pay(image.pixels.memory()).map_err(|e| format!("`{name}`: {e}"))?;
             scene.images.push(image.into());
             scene.images.len() - 1
         }

@@ -4,7 +4,7 @@ use super::keys::{Entry, Named};
 use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
-use crate::desc::files::Folder;
+use crate::desc::files::{self, Folder};
 use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Options, Scene, TextureRef};
 use crate::desc::{ies, image_file, load, mesh_check, place};
 use glam::Mat4;
@@ -35,6 +35,8 @@ pub(super) struct Builder<'a> {
     absorb: Option<usize>,
     /// Memory that was spent on placing \[bytes\].
     placed: usize,
+    /// What images may take.
+    pixels: image_file::Grant,
 }
 
 /// Objects and lights that stand together.
@@ -60,6 +62,7 @@ impl<'a> Builder<'a> {
             open: Vec::new(),
             absorb: None,
             placed: 0,
+            pixels: image_file::Grant::default(),
         }
     }
 
@@ -176,7 +179,8 @@ impl<'a> Builder<'a> {
 
     /// The content of a file, read once, its lists appended to the scene's.
     fn file_part(&mut self, file: &At<String>) -> Result<Part, Fault> {
-        if let Some(part) = self.parts.get(&file.value) {
+        let plain = files::plain(&file.value);
+        if let Some(part) = self.parts.get(&plain) {
             return Ok(part.clone());
         }
         let path = self.folder.resolve(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
@@ -194,7 +198,7 @@ impl<'a> Builder<'a> {
             *note = format!("{}: {note}", file.value);
         }
         let part = Part { objects, lights };
-        self.parts.insert(file.value.clone(), part.clone());
+        self.parts.insert(plain, part.clone());
         Ok(part)
     }
 
@@ -267,13 +271,14 @@ impl<'a> Builder<'a> {
 
     /// An image file, decoded once.
     pub(super) fn image(&mut self, file: &At<String>) -> Result<usize, Fault> {
-        if let Some(number) = self.images.get(&file.value) {
+        let plain = files::plain(&file.value);
+        if let Some(number) = self.images.get(&plain) {
             return Ok(*number);
         }
         let image = self.decode(file)?;
         let number = self.scene.images.len();
         self.scene.images.push(image.into());
-        self.images.insert(file.value.clone(), number);
+        self.images.insert(plain, number);
         Ok(number)
     }
 
@@ -298,20 +303,24 @@ impl<'a> Builder<'a> {
 
     /// A light's measured profile, read once.
     pub(super) fn profile(&mut self, file: &At<String>) -> Result<Arc<ies::Profile>, Fault> {
-        if let Some(profile) = self.profiles.get(&file.value) {
+        let plain = files::plain(&file.value);
+        if let Some(profile) = self.profiles.get(&plain) {
             return Ok(profile.clone());
         }
         let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
         let profile = ies::parse(&bytes).map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
         let profile = Arc::new(profile);
-        self.profiles.insert(file.value.clone(), profile.clone());
+        self.profiles.insert(plain, profile.clone());
         Ok(profile)
     }
 
     fn decode(&self, file: &At<String>) -> Result<Image, Fault> {
         let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let image = image_file::decode(&file.value, &bytes);
-        image.map_err(|message| Fault::new(&file.at, format!("`{}` {message}", file.value)))
+        let wrong = |message| Fault::new(&file.at, format!("`{}` {message}", file.value));
+        let image = image_file::decode(&file.value, &bytes).map_err(wrong)?;
+        self.pixels.read(bytes.len());
+        self.pixels.pay(image.pixels.memory()).map_err(|message| wrong(format!("is one too many: {message}")))?;
+        Ok(image)
     }
 
     /// A mesh that keeps what readers guarantee.
