@@ -1,8 +1,9 @@
 //! IES LM-63 photometric files (1986, 1991, 1995, 2002, 2019): intensity against direction.
 //!
-//! The keywords before `TILT=` are passed over, and so is a tilt: lamps burn as they were measured. The candela values are
-//! multiplied by the file's multiplier, its ballast factor and, up to 1995, its ballast-lamp photometric factor; what later
-//! editions have in that place is no factor. Dimensions of the luminous opening are passed over: light leaves a point.
+//! The keywords before `TILT=` are passed over. The candela values are multiplied by the file's multiplier, its ballast
+//! factor and, up to 1995, its ballast-lamp photometric factor; what later editions have in that place is no factor. A
+//! tilt (`TILT=INCLUDE`, or the name of a file) is a factor that depends on how the luminaire hangs: see [`Tilt`].
+//! Dimensions of the luminous opening are passed over: light leaves a point.
 
 use glam::{Mat3, Vec3};
 
@@ -15,8 +16,47 @@ pub struct Profile {
     pub vertical: Vec<f32>,
     /// Horizontal angles, ascending \[degrees\].
     pub horizontal: Vec<f32>,
-    /// Intensities \[cd\], for each horizontal angle those of all vertical ones; all factors applied.
+    /// Intensities \[cd\], for each horizontal angle those of all vertical ones; all factors but the tilt's applied.
     pub candela: Vec<f32>,
+    /// How the output depends on the luminaire's tilt; `None`: not at all.
+    pub tilt: Option<Tilt>,
+}
+
+/// Output of a lamp that burns more or less brightly as it is tilted (discharge lamps), as a factor on all intensities:
+/// piecewise linear between the angles, and as at the nearest one beyond them.
+///
+/// The angle is that between the luminaire's aim and straight down, for which it was measured. Which way the lamp lies in the
+/// luminaire (vertical, horizontal and staying so, or tilting with it) only says why the factors are what they are.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tilt {
+    /// Angles \[degrees\], ascending; at least one.
+    pub angles: Vec<f32>,
+    /// The factor at each.
+    pub factors: Vec<f32>,
+}
+
+impl Tilt {
+    /// The factor at an angle \[degrees\].
+    pub fn factor(&self, angle: f32) -> f32 {
+        let last = self.angles.len() - 1;
+        let i = self.angles.partition_point(|a| *a <= angle);
+        if i == 0 || i > last {
+            return self.factors[i.min(last)];
+        }
+        let t = (angle - self.angles[i - 1]) / (self.angles[i] - self.angles[i - 1]);
+        self.factors[i - 1] + t * (self.factors[i] - self.factors[i - 1])
+    }
+}
+
+impl Profile {
+    /// The factor of the tilt of a luminaire whose frame, in which it aims along −z, is turned to the world by `to_world`;
+    /// straight down in the world is −y.
+    pub fn tilt_factor(&self, to_world: Mat3) -> f32 {
+        // atan2 keeps small angles, of which acos loses half the digits.
+        let aim = -to_world.z_axis;
+        let angle = aim.cross(Vec3::NEG_Y).length().atan2(-aim.y);
+        self.tilt.as_ref().map_or(1.0, |tilt| tilt.factor(angle.to_degrees()))
+    }
 }
 
 /// Which way the axes of the goniometer stood.
@@ -37,8 +77,9 @@ pub fn frame(z: Vec3, x: Vec3) -> Mat3 {
     Mat3::from_cols(across, z.cross(across), z)
 }
 
-/// Reads a file; the error names the line, what was found and what was expected.
-pub fn parse(bytes: &[u8]) -> Result<Profile, String> {
+/// Reads a file; the error names the line, what was found and what was expected. `beside` reads the file of a tilt, which
+/// is named relative to this one.
+pub fn parse(bytes: &[u8], beside: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Profile, String> {
     let text = String::from_utf8_lossy(bytes);
     let upper = |line: &str| line.trim().to_ascii_uppercase();
     let Some(tilt) = text.lines().position(|line| upper(line).starts_with("TILT=")) else {
@@ -46,19 +87,18 @@ pub fn parse(bytes: &[u8]) -> Result<Profile, String> {
     };
     let edition = text.lines().next().map(upper).unwrap_or_default();
     let later = ["LM-63-2002", "LM-63-2019"].iter().any(|name| edition.contains(name));
-    let mut numbers = Numbers {
-        tokens: text.lines().enumerate().skip(tilt + 1).flat_map(|(i, line)| {
-            line.split(|c: char| c.is_whitespace() || c == ',').filter(|t| !t.is_empty()).map(move |t| (i + 1, t))
-        }),
-        line: tilt + 1,
-    };
-    if text.lines().nth(tilt).map(upper).is_some_and(|line| line[5..].trim() == "INCLUDE") {
-        numbers.next("the lamp's position")?;
-        let pairs = numbers.count("the number of tilt angles")?;
-        for _ in 0..2 * u64::from(pairs) {
-            numbers.next("an angle or factor of the tilt")?;
+    let mut numbers = Numbers { tokens: tokens(&text, tilt + 1), line: tilt + 1 };
+    let source = text.lines().nth(tilt).and_then(|line| line.trim().get(5..)).unwrap_or_default().trim();
+    let tilt = match &*source.to_ascii_uppercase() {
+        "NONE" | "" => None,
+        "INCLUDE" => Some(numbers.tilt()?),
+        _ => {
+            let says = |message: String| format!("line {}: the tilt's file `{source}`: {message}", tilt + 1);
+            let bytes = beside(source).map_err(says)?;
+            let text = String::from_utf8_lossy(&bytes);
+            Some(Numbers { tokens: tokens(&text, 0), line: 1 }.tilt().map_err(says)?)
         }
-    }
+    };
 
     // Ten numbers of the luminaire, three of its ballast.
     numbers.next("the number of lamps")?;
@@ -92,7 +132,14 @@ pub fn parse(bytes: &[u8]) -> Result<Profile, String> {
         }
         candela.push(value);
     }
-    Ok(Profile { kind, vertical, horizontal, candela })
+    Ok(Profile { kind, vertical, horizontal, candela, tilt })
+}
+
+/// The words of a text from line `skip` on, with the numbers of their lines.
+fn tokens(text: &str, skip: usize) -> impl Iterator<Item = (usize, &str)> {
+    text.lines().enumerate().skip(skip).flat_map(|(i, line)| {
+        line.split(|c: char| c.is_whitespace() || c == ',').filter(|t| !t.is_empty()).map(move |t| (i + 1, t))
+    })
 }
 
 /// Whether the angles are those of the photometric type.
@@ -149,6 +196,22 @@ impl<'a, T: Iterator<Item = (usize, &'a str)>> Numbers<T> {
         if fits { Ok(x as u32) } else { Err(self.says(format!("{what} is {x}; expected 1 to {}", u16::MAX))) }
     }
 
+    /// The lamp's position in the luminaire, and pairs of angles and factors.
+    fn tilt(&mut self) -> Result<Tilt, String> {
+        let position = self.next("the lamp's position")?;
+        if ![1.0, 2.0, 3.0].contains(&position) {
+            return Err(self.says(format!("the lamp's position is {position}; expected 1, 2 or 3")));
+        }
+        let pairs = self.count("the number of tilt angles")?;
+        let angles = self.angles("tilt", pairs)?;
+        let factors = (0..pairs).map(|_| Ok(self.not_negative("a factor of the tilt")? as f32));
+        let factors: Vec<f32> = factors.collect::<Result<_, String>>()?;
+        match factors.iter().all(|factor| factor.is_finite()) {
+            true => Ok(Tilt { angles, factors }),
+            false => Err(self.says("a factor of the tilt is beyond f32".into())),
+        }
+    }
+
     fn angles(&mut self, which: &str, count: u32) -> Result<Vec<f32>, String> {
         let mut angles: Vec<f32> = Vec::new();
         for _ in 0..count {
@@ -166,8 +229,54 @@ impl<'a, T: Iterator<Item = (usize, &'a str)>> Numbers<T> {
 mod tests {
     use super::*;
     use proptest::prelude::*;
+    use std::f32::consts::FRAC_PI_2;
 
     const FILE: &str = "IESNA:LM-63-2002\n[TEST] none\nTILT=INCLUDE\n1\n2\n0 90\n1, 0.9\n1 1000 2 3 2 1 2 0 0 0\n0.5 1.00001 60\n0 45 90\n0 90\n100 50 0\n80 40 0\n";
+
+    /// Reads a file that stands alone.
+    fn parse(bytes: &[u8]) -> Result<Profile, String> {
+        super::parse(bytes, &|_| Err("is not there".into()))
+    }
+
+    /// Factors by hand: 1 straight down, 0.9 level, and so 0.95 at 45° and 0.97 at 27°.
+    #[test]
+    fn tilts_are_factors() {
+        let mut profile = parse(FILE.as_bytes()).unwrap();
+        let hangs = |profile: &Profile, degrees: f32, azimuth: f32| {
+            // The aim −z, turned from straight down by the tilt.
+            let down = Mat3::from_rotation_x(-FRAC_PI_2);
+            profile.tilt_factor(Mat3::from_rotation_y(azimuth) * Mat3::from_rotation_x(degrees.to_radians()) * down)
+        };
+        for azimuth in [0.0, 1.0, 4.0] {
+            for (angle, factor) in [(0.0, 1.0), (27.0, 0.97), (45.0, 0.95), (90.0, 0.9), (180.0, 0.9)] {
+                assert!((hangs(&profile, angle, azimuth) - factor).abs() < 1e-6, "{angle}");
+            }
+        }
+        profile.tilt = Some(Tilt { angles: vec![10.0, 30.0, 90.0], factors: vec![2.0, 1.0, 4.0] });
+        for (angle, factor) in [(0.0, 2.0), (10.0, 2.0), (20.0, 1.5), (30.0, 1.0), (50.0, 2.0), (120.0, 4.0)] {
+            assert!((hangs(&profile, angle, 0.0) - factor).abs() < 1e-5, "{angle}");
+        }
+        profile.tilt = None;
+        assert_eq!(hangs(&profile, 30.0, 0.0), 1.0);
+    }
+
+    #[test]
+    fn tilts_may_be_files() {
+        let file = FILE.replace("TILT=INCLUDE\n1\n2\n0 90\n1, 0.9\n", "TILT=Lamp.tlt\n");
+        let read = |bytes: &[u8]| {
+            super::parse(file.as_bytes(), &|name| {
+                assert_eq!(name, "Lamp.tlt");
+                Ok(bytes.to_vec())
+            })
+        };
+        assert_eq!(read(b"1\n2\n0 90\n1, 0.9\n"), parse(FILE.as_bytes()));
+        assert_eq!(
+            read(b"1\n2\n0 90\n1").unwrap_err(),
+            "line 3: the tilt's file `Lamp.tlt`: line 4: the file ends; expected a factor of the tilt"
+        );
+        assert_eq!(parse(file.as_bytes()).unwrap_err(), "line 3: the tilt's file `Lamp.tlt`: is not there");
+        assert_eq!(parse(file.replace("Lamp.tlt", "NONE").as_bytes()).unwrap().tilt, None);
+    }
 
     #[test]
     fn profiles_are_read() {
@@ -183,6 +292,9 @@ mod tests {
     fn errors_name_the_line() {
         for (from, to, expected) in [
             ("TILT=INCLUDE", "", "no line `TILT="),
+            ("INCLUDE\n1", "INCLUDE\n4", "line 4: the lamp's position is 4; expected 1, 2 or 3"),
+            ("1, 0.9", "1, -0.9", "line 7: a factor of the tilt is -0.9"),
+            ("0 90\n1,", "0 0\n1,", "line 6: the tilt angle 0 does not exceed"),
             ("80 40 0\n", "80 40", "line 13: the file ends; expected a candela value"),
             ("80 40", "80 x", "line 13: `x` is no number"),
             ("80 40", "80 -4", "line 13: a candela value is -4"),

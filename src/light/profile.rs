@@ -19,7 +19,7 @@ use std::sync::Arc;
 pub struct ProfileLight {
     position: Vec3A,
     to_local: Mat3,
-    /// Factor on the candelas.
+    /// Factor on the candelas, the tilt's included.
     intensity: Spectrum,
     profile: Arc<Profile>,
     /// Mean over the sphere \[cd\].
@@ -33,7 +33,7 @@ impl ProfileLight {
         Self {
             position: position.into(),
             to_local: to_world.transpose(),
-            intensity: Spectrum::from_rgb(intensity),
+            intensity: Spectrum::from_rgb(intensity) * profile.tilt_factor(to_world),
             profile,
             mean,
         }

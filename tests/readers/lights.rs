@@ -72,3 +72,25 @@ fn profiles_are_read_from_the_scenes_folder() {
     let error = light("bad.ies").unwrap_err().to_string();
     assert!(error.contains("`bad.ies`, line 3: the file ends") && error.contains(":3:8"), "{error}");
 }
+
+#[test]
+fn tilts_are_read_from_beside_the_profile() {
+    let ies = "IESNA:LM-63-2002\nTILT=lamp.tlt\n1 1 2 2 1 1 2 0 0 0\n1 1 1\n0 90\n0\n5 3\n";
+    let text = "[[light]]\ntype = 'ies'\nfile = 'lamps/a.ies'\nposition = [0, 0, 0]\ndirection = [1, -1, 0]\n";
+    let mut files = vec![("scene.toml", text.as_bytes()), ("lamps/a.ies", ies.as_bytes())];
+    let gone = super::folder(&files);
+    let error = read(&gone.path().join("scene.toml")).unwrap_err().to_string();
+    assert!(error.contains(":3:8") && error.contains("line 2: the tilt's file `lamp.tlt`"), "{error}");
+    files.push(("lamps/lamp.tlt", b"3\n2\n0 90\n1 0.5\n"));
+    let folder = super::folder(&files);
+    let scene = read(&folder.path().join("scene.toml")).unwrap();
+    let [Light::Profile { position, to_world, intensity, profile }] = &scene.lights[..] else {
+        panic!("{:?}", scene.lights)
+    };
+    // Tilted by 45°, halfway from 1 to 0.5.
+    assert!((profile.tilt_factor(*to_world) - 0.75).abs() < 1e-6);
+    // 5 cd at the axis, times the multiplier 2 and the tilt, at 2 m: 7.5/4 W/m².
+    let light = radianza::light::ProfileLight::new(*position, *to_world, *intensity, profile.clone());
+    let sample = light.sample(radianza::glam::Vec3A::new(1.0, -1.0, 0.0).normalize() * 2.0).unwrap();
+    assert!((sample.le.0.x - 1.875).abs() < 1e-5, "{sample:?}");
+}

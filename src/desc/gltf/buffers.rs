@@ -122,11 +122,14 @@ impl<'a> Buffers<'a> {
     pub(super) fn fetch(&self, uri: &str, place: &str, budget: &Budget) -> Result<(String, Vec<u8>), Error> {
         match uri::parse(uri).map_err(|message| self.source.invalid(place, message))? {
             Uri::Data(bytes) => Ok((format!("data URI of {place}"), bytes)),
-            Uri::File(name) => {
-                let bytes = (self.resolve)(&name, place)?;
-                budget.external(self.source, place, &name, bytes.len())?;
-                Ok((name, bytes))
-            }
+            Uri::File(name) => self.file(&name, place, budget).map(|bytes| (name, bytes)),
         }
+    }
+
+    /// The file of this name, which `place` asks for.
+    pub(super) fn file(&self, name: &str, place: &str, budget: &Budget) -> Result<Vec<u8>, Error> {
+        let bytes = (self.resolve)(name, place)?;
+        budget.external(self.source, place, name, bytes.len())?;
+        Ok(bytes)
     }
 }

@@ -59,11 +59,15 @@ impl Reader<'_> {
         let light = self.source.get(lights.map_or(&[][..], Vec::as_slice), index, "light profile", from)?;
         let place = format!("/extensions/{NAME}/lights/{index}");
         let fetched;
+        let mut folder = String::new();
         let (place, bytes) = match (light.get("uri").and_then(Value::as_str), light.get("bufferView")) {
             (Some(uri), None) => {
                 let place = format!("{place}/uri");
-                fetched = self.buffers.fetch(uri, &place, &self.budget)?.1;
-                (place, &fetched[..])
+                fetched = self.buffers.fetch(uri, &place, &self.budget)?;
+                if let (false, Some(end)) = (uri.starts_with("data:"), fetched.0.rfind('/')) {
+                    folder = fetched.0[..=end].into();
+                }
+                (place, &fetched.1[..])
             }
             (None, Some(view)) => {
                 let place = format!("{place}/bufferView");
@@ -74,7 +78,12 @@ impl Reader<'_> {
             _ => return Err(self.source.invalid(place, "has neither or both of uri and bufferView; expected one")),
         };
         self.budget.decode(self.source, &place, bytes.len(), 4)?;
-        let profile = ies::parse(bytes).map_err(|message| self.source.invalid(&place, message))?;
+        // A tilt's file stands beside the profile.
+        let beside = |name: &str| {
+            let tilt = self.buffers.file(&format!("{folder}{name}"), &place, &self.budget);
+            tilt.map_err(|e| e.message)
+        };
+        let profile = ies::parse(bytes, &beside).map_err(|message| self.source.invalid(&place, message))?;
         let profile = Arc::new(profile);
         self.profiles.insert(index, profile.clone());
         Ok(profile)

@@ -308,7 +308,11 @@ impl<'a> Builder<'a> {
             return Ok(profile.clone());
         }
         let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let profile = ies::parse(&bytes).map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
+        // A tilt's file stands beside the profile.
+        let folder = plain.rfind('/').map_or("", |end| &plain[..=end]);
+        let beside = |name: &str| self.folder.read(&format!("{folder}{name}"), "").map_err(|e| e.message);
+        let profile = ies::parse(&bytes, &beside);
+        let profile = profile.map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
         let profile = Arc::new(profile);
         self.profiles.insert(plain, profile.clone());
         Ok(profile)

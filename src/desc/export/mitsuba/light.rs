@@ -38,9 +38,10 @@ fn element(light: &Light, beside: &mut Beside) -> Element {
             let spot = spot.float("cutoff_angle", outer.to_degrees()).float("beam_width", inner.to_degrees());
             spot.transform("to_world", Mat4::from_translation(*position) * turn)
         }
-        Light::Profile { position, intensity, profile, .. } => {
+        Light::Profile { position, to_world, intensity, profile } => {
             beside.note("measured lights (IES) shine the same in all directions, with the mean of their candelas");
             let mean = profile.candela.iter().sum::<f32>() / profile.candela.len().max(1) as f32;
+            let mean = mean * profile.tilt_factor(*to_world);
             let point = Element::plugin("emitter", "point").rgb("intensity", intensity.map(|x| x * mean));
             point.child(point_of("position", *position))
         }

@@ -41,9 +41,10 @@ fn one(light: &Light, beside: &mut Beside, out: &mut Words) {
             let spot = out.line("LightSource \"spot\"").rgb("I", *intensity).point("from", from).point("to", to);
             spot.float("coneangle", outer.to_degrees()).float("conedeltaangle", (outer - inner).to_degrees());
         }
-        Light::Profile { position, intensity, profile, .. } => {
+        Light::Profile { position, to_world, intensity, profile } => {
             beside.note("measured lights (IES) shine the same in all directions, with the mean of their candelas");
             let mean = profile.candela.iter().sum::<f32>() / profile.candela.len().max(1) as f32;
+            let mean = mean * profile.tilt_factor(*to_world);
             out.line("LightSource \"point\"").rgb("I", intensity.map(|x| x * mean)).point("from", *position);
         }
         Light::Directional { direction, irradiance } => {

@@ -86,7 +86,8 @@ fn flux_of_profiles(trial: &Trial, found: &mut Findings) {
         (Photometry::B, [-90.0, 0.0, 90.0], &[-45.0, 0.0, 90.0]),
     ] {
         let candela = (0..3 * horizontal.len()).map(|i| 1.0 + (i * 5 % 7) as f32).collect();
-        let profile = Profile { kind, vertical: vertical.to_vec(), horizontal: horizontal.to_vec(), candela };
+        let profile =
+            Profile { kind, vertical: vertical.to_vec(), horizontal: horizontal.to_vec(), candela, tilt: None };
         let to_world = Mat3::from_rotation_x(0.7);
         let light =
             desc::Light::Profile { position: Vec3::ZERO, to_world, intensity: [0.5; 3], profile: profile.into() };
