@@ -1,16 +1,16 @@
-//! Materials (glTF 2.0, section 3.9).
+//! Materials (glTF 2.0, section 3.9), the UV sets that they look at, and KHR_materials_variants: which a primitive has.
 
-use super::Reader;
-use super::extensions::kind;
-use super::slot::Slot;
-use super::uv_sets::UvSets;
+use super::{Reader, Source};
+use super::texture::Slot;
 use crate::desc::{
     Alpha, ColorParam, Emission, Error, Interior, Layers, Material, MetallicRoughness, Model, NormalMap, ScalarParam,
     Sides, TextureRef,
 };
 use gltf::json;
+use json::mesh::Primitive;
 use json::material::AlphaMode;
 use json::validation::Checked;
+use serde::Deserialize;
 use serde_json::Value;
 
 /// Channels of textures.
@@ -44,7 +44,6 @@ impl Reader<'_> {
 
     fn convert(&mut self, m: &json::Material, name: String, place: &str) -> Result<Material, Error> {
         let pbr = &m.pbr_metallic_roughness;
-        let extensions = m.extensions.as_ref();
         let at = |key: &str| format!("{place}/pbrMetallicRoughness/{key}");
 
         // Base colour and coverage share factor and texture.
@@ -52,8 +51,8 @@ impl Reader<'_> {
         let texture = self.color_texture(pbr.base_color_texture.as_ref(), &at("baseColorTexture"))?;
         let base_color = ColorParam { factor: [factor[R], factor[G], factor[B]], texture, vertex_color: true };
         let coverage = ScalarParam { factor: factor[A], texture: texture.map(|t| (t, A)) };
-        let unlit = extensions.is_some_and(|e| e.unlit.is_some());
-        let gloss = if unlit { None } else { self.specular_glossiness(extensions, place)? };
+        let unlit = self.open("KHR_materials_unlit", place)?.is_some();
+        let gloss = if unlit { None } else { self.specular_glossiness(place)? };
         let coverage = gloss.as_ref().map_or(coverage, |(_, coverage)| *coverage);
         let alpha = match m.alpha_mode {
             Checked::Valid(AlphaMode::Opaque) => Alpha::Opaque,
@@ -86,22 +85,24 @@ impl Reader<'_> {
         let roughness = self.unit(pbr.roughness_factor.0, &at("roughnessFactor"))?;
         let texture = self.data_texture(pbr.metallic_roughness_texture.as_ref(), &at("metallicRoughnessTexture"))?;
         let channel = |factor, channel| ScalarParam { factor, texture: texture.map(|t| (t, channel)) };
-        let dielectric = self.dielectric(extensions, place)?;
+        let interior = self.interior(place)?;
+        let ior = self.ior(place)?;
+        let (specular, specular_color) = self.specular(place)?;
         let model = Model::MetallicRoughness(Box::new(MetallicRoughness {
             base_color,
             metallic: channel(metallic, B),
             roughness: channel(roughness, G),
-            ior: dielectric.ior,
-            specular: dielectric.specular,
-            specular_color: dielectric.specular_color,
-            transmission: dielectric.transmission,
+            ior,
+            specular,
+            specular_color,
+            transmission: self.transmission(place)?,
             layers: Layers {
-                anisotropy: self.anisotropy(extensions, place)?,
-                sheen: self.sheen(extensions, place)?,
-                clearcoat: self.clearcoat(extensions, place)?,
+                anisotropy: self.anisotropy(place)?,
+                sheen: self.sheen(place)?,
+                clearcoat: self.clearcoat(place)?,
             },
-            diffuse_transmission: self.diffuse_transmission(extensions, place)?,
-            iridescence: self.iridescence(extensions, place)?,
+            diffuse_transmission: self.diffuse_transmission(place)?,
+            iridescence: self.iridescence(place)?,
         }));
         let model = gloss.map_or(model, |(m, _)| Model::SpecularGlossiness(Box::new(m)));
         if m.occlusion_texture.is_some() {
@@ -113,15 +114,12 @@ impl Reader<'_> {
         };
         let emission = self.emission(m, place)?.map(|emission| Emission { coat, ..emission });
         let normal_map = self.normal_map(m.normal_texture.as_ref(), &format!("{place}/normalTexture"))?;
-        Ok(Material { normal_map, interior: dielectric.interior, ..surface(model, emission) })
+        Ok(Material { normal_map, interior, ..surface(model, emission) })
     }
 
     /// Le = factor × texture × KHR_materials_emissive_strength; `None` where that is black.
     fn emission(&mut self, m: &json::Material, place: &str) -> Result<Option<Emission>, Error> {
-        let strength = m.extensions.as_ref().and_then(|e| e.emissive_strength.as_ref());
-        let strength = strength.map_or(1.0, |s| s.emissive_strength.0);
-        let at = format!("{place}/extensions/KHR_materials_emissive_strength/emissiveStrength");
-        let strength = self.clamped(strength, 0.0, f32::INFINITY, &at)?;
+        let strength = self.emissive_strength(place)?;
         let mut factor = m.emissive_factor.0;
         for x in &mut factor {
             let at = format!("{place}/emissiveFactor");
@@ -148,43 +146,6 @@ impl Reader<'_> {
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 
-    /// A texture of colours: RGB is stored with the sRGB curve.
-    pub(super) fn color_texture(
-        &mut self,
-        info: Option<&json::texture::Info>,
-        place: &str,
-    ) -> Result<Option<TextureRef>, Error> {
-        let Some(info) = info else { return Ok(None) };
-        let slot = Slot::of_info(info, self.source, place)?;
-        self.texture(slot, true, place)
-    }
-
-    /// A texture of numbers.
-    pub(super) fn data_texture(
-        &mut self,
-        info: Option<&json::texture::Info>,
-        place: &str,
-    ) -> Result<Option<TextureRef>, Error> {
-        let Some(info) = info else { return Ok(None) };
-        let slot = Slot::of_info(info, self.source, place)?;
-        self.texture(slot, false, place)
-    }
-
-    /// The object of an extension that the `gltf` crate leaves untyped, and its place.
-    pub(super) fn untyped<'e>(
-        &self,
-        extensions: Option<&'e json::extensions::material::Material>,
-        name: &str,
-        place: &str,
-    ) -> Result<Option<(&'e Value, String)>, Error> {
-        let Some(object) = extensions.and_then(|e| e.others.get(name)) else { return Ok(None) };
-        let place = format!("{place}/extensions/{name}");
-        if !object.is_object() {
-            return Err(self.source.invalid(place, format!("is {}; expected an object", kind(object))));
-        }
-        Ok(Some((object, place)))
-    }
-
     /// Numbers in [0, 1].
     fn units<const N: usize>(&mut self, mut xs: [f32; N], place: &str) -> Result<[f32; N], Error> {
         for x in &mut xs {
@@ -208,4 +169,84 @@ pub(super) fn uv_sets(m: &Material) -> [bool; 2] {
     let mut used = [false; 2];
     m.textures().iter().for_each(|t| used[t.uv_set] = true);
     used
+}
+
+/// The sets of the file that the textures of one material look at, by their place in [`Mesh::uv`](crate::desc::Mesh).
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct UvSets([Option<u32>; 2]);
+
+impl UvSets {
+    /// The place of TEXCOORD_`set`, which is given one if need be: 0 and 1 their own where it is free. `None` where two
+    /// other sets have both.
+    pub(super) fn place(&mut self, set: u32) -> Option<usize> {
+        let own = set.min(1) as usize;
+        let places = [own, 1 - own];
+        let known = places.into_iter().find(|p| self.0[*p] == Some(set));
+        let place = known.or_else(|| places.into_iter().find(|p| self.0[*p].is_none()))?;
+        self.0[place] = Some(set);
+        Some(place)
+    }
+
+    /// n of the TEXCOORD_n at both places; 0 and 1 where no texture asks for another.
+    pub(super) fn numbers(self) -> [u32; 2] {
+        [self.0[0].unwrap_or(0), self.0[1].unwrap_or(1)]
+    }
+}
+
+/// The extension of variants.
+const VARIANTS: &str = "KHR_materials_variants";
+
+/// What a primitive says of variants.
+#[derive(Deserialize)]
+struct Mappings {
+    mappings: Vec<Mapping>,
+}
+
+#[derive(Deserialize)]
+struct Mapping {
+    material: usize,
+    variants: Vec<usize>,
+}
+
+/// The names of all variants.
+pub(super) fn variants<'a>(source: Source<'a>) -> Result<Vec<&'a str>, Error> {
+    let place = format!("/extensions/{VARIANTS}/variants");
+    let Some(list) = source.json.pointer(&place) else { return Ok(Vec::new()) };
+    let Some(list) = list.as_array() else { return Err(source.invalid(place, "is no list of variants")) };
+    let name = |(i, variant): (usize, &'a Value)| {
+        let missing = || source.invalid(format!("{place}/{i}/name"), "is missing; expected the name of a variant");
+        variant.get("name").and_then(Value::as_str).ok_or_else(missing)
+    };
+    list.iter().enumerate().map(name).collect()
+}
+
+impl Reader<'_> {
+    /// The material of the primitive at `place` under the chosen variant, and what refers to it.
+    pub(super) fn chosen_material(&self, primitive: &Primitive, place: &str) -> Result<(Option<usize>, String), Error> {
+        let own = || (primitive.material.map(|m| m.value()), format!("{place}/material"));
+        let Some(variant) = self.variant else { return Ok(own()) };
+        let others = primitive.extensions.as_ref().map(|e| &e.others);
+        let Some(Mappings { mappings }) = self.source.extension(others, VARIANTS, place)? else { return Ok(own()) };
+        let mapping = mappings.iter().enumerate().find(|(_, m)| m.variants.contains(&variant));
+        let at = |i: usize| format!("{place}/extensions/{VARIANTS}/mappings/{i}/material");
+        Ok(mapping.map_or_else(own, |(i, m)| (Some(m.material), at(i))))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn two_sets_of_any_number() {
+        let of = |asked: &[u32]| {
+            let mut sets = UvSets::default();
+            (asked.iter().map(|set| sets.place(*set)).collect::<Vec<_>>(), sets.numbers())
+        };
+        assert_eq!(of(&[]), (vec![], [0, 1]));
+        assert_eq!(of(&[1, 0, 1]), (vec![Some(1), Some(0), Some(1)], [0, 1]));
+        assert_eq!(of(&[5, 0, 5]), (vec![Some(1), Some(0), Some(1)], [0, 5]));
+        assert_eq!(of(&[5, 1, 5]), (vec![Some(1), Some(0), Some(1)], [1, 5]));
+        assert_eq!(of(&[7, 5, 0]), (vec![Some(1), Some(0), None], [5, 7]));
+        assert_eq!(of(&[u32::MAX]), (vec![Some(1)], [0, u32::MAX]));
+    }
 }

@@ -1,8 +1,7 @@
 //! Primitives as shapes.
 
-use super::morph::{self, Displacement};
-use super::skin::Binding;
-use super::{Reader, draco, material, tangents};
+use super::deform::{Binding, Displacement, displacements};
+use super::{Reader, draco, material, normals};
 use crate::desc::{Error, Shape, TextureRef};
 use gltf::json;
 use json::mesh::{Mode, Semantic};
@@ -125,7 +124,7 @@ impl Reader<'_> {
             attributes,
             uv_sets,
             stream,
-            morph: morph::displacements(self.source, &pose.weights, &names(uv_sets), place)?,
+            morph: displacements(self.source, &pose.weights, &names(uv_sets), place)?,
             binding: pose.skin.and_then(|skin| Binding::of(skin, primitive)),
             map: map.map(|map| (map.uv_set, map.transform.to_cols_array().map(f32::to_bits))),
         };
@@ -162,7 +161,7 @@ impl Reader<'_> {
         if let Some(map) = map {
             // What MikkTSpace keeps for a corner, and the vertex that the corner may become.
             self.budget.decode(self.source, place, 3 * mesh.indices.len(), 256)?;
-            if !tangents::generate(&mut mesh, map.uv_set, map.transform) {
+            if !normals::generate_tangents(&mut mesh, map.uv_set, map.transform) {
                 let note = "a vertex with over a thousand triangles: tangents are made per triangle, not by MikkTSpace";
                 self.notes.at(place, note);
             }

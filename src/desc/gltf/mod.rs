@@ -37,43 +37,23 @@
 
 mod accessor;
 mod animation;
-mod anisotropy;
 mod budget;
 mod buffers;
 mod camera;
-mod clearcoat;
 mod component;
-mod container;
-mod dielectric;
-mod diffuse_transmission;
+mod deform;
 mod document;
 mod draco;
 mod extensions;
-mod image;
-mod image_based;
-mod instances;
-mod interior;
-mod iridescence;
 mod light;
 mod material;
+mod material_extensions;
 mod mesh;
 mod meshopt;
-mod metadata;
-mod morph;
 mod node;
 mod normals;
 mod notes;
-mod profile;
-mod sheen;
-mod skin;
-mod slot;
-mod specular_glossiness;
-mod tangents;
 mod texture;
-mod triangles;
-mod uri;
-mod uv_sets;
-mod variants;
 mod vertices;
 
 pub use extensions::{EXTENSIONS, Extension, Status, Use, extension, honoured};
@@ -85,12 +65,12 @@ use budget::Budget;
 use buffers::Buffers;
 use glam::DMat4;
 use gltf::json;
+use material::UvSets;
 use notes::Notes;
 use serde_json::{Value, json};
 use std::collections::{HashMap, HashSet};
 use std::path::Path;
 use std::rc::Rc;
-use uv_sets::UvSets;
 
 /// How other files are read: by the name in the document, and the JSON pointer for the error.
 pub type Resolve<'a> = &'a dyn Fn(&str, &str) -> Result<Vec<u8>, Error>;
@@ -113,7 +93,7 @@ pub fn parse(bytes: &[u8], file: &Path, resolve: Resolve) -> Result<Scene, Error
 
 /// Reads the bytes of a `.gltf` or `.glb` file at a time, in a variant; one that it does not have is passed over.
 pub fn parse_with(bytes: &[u8], file: &Path, resolve: Resolve, options: &Options) -> Result<Scene, Error> {
-    let container = container::split(bytes, file)?;
+    let container = document::split(bytes, file)?;
     let mut notes = Notes::default();
     let mut document = document::parse(container.json, file, &mut notes)?;
     let animations = document.as_object_mut().and_then(|d| d.remove("animations")).unwrap_or(json!([]));
@@ -134,7 +114,7 @@ pub fn parse_with(bytes: &[u8], file: &Path, resolve: Resolve, options: &Options
     };
     drop(animations);
     let source = Source { file, root: posed.as_ref().unwrap_or(&rest), json: &document };
-    let variants: Vec<String> = variants::names(source)?.into_iter().map(String::from).collect();
+    let variants: Vec<String> = material::variants(source)?.into_iter().map(String::from).collect();
     let name = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let mut reader = Reader {
         source,
@@ -148,7 +128,7 @@ pub fn parse_with(bytes: &[u8], file: &Path, resolve: Resolve, options: &Options
             variants,
             duration,
             extensions: extensions::uses(&document, file)?,
-            metadata: metadata::packets(&document, file)?,
+            metadata: document::packets(&document, file)?,
             ..Scene::default()
         },
         materials: HashMap::new(),
@@ -210,7 +190,7 @@ struct Reader<'a> {
     /// Texture of the document and whether it is sRGB → texture of the scene.
     textures: HashMap<(usize, bool), usize>,
     /// Image of the document → image of the scene.
-    images: HashMap<usize, image::Decoded>,
+    images: HashMap<usize, texture::Decoded>,
     /// What a primitive is made of → shape of the scene, if a triangle is left of it.
     geometry: HashMap<mesh::Ingredients, Option<usize>>,
     /// Shapes that emit and are placed.

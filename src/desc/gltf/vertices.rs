@@ -4,7 +4,7 @@ use super::accessor::{Accessors, Elements};
 use super::component::Types;
 use super::draco::{self, Decoded};
 use super::mesh::{Ingredients, names};
-use super::{Reader, normals, tangents, triangles};
+use super::{Reader, normals};
 use crate::desc::{Error, Mesh};
 use glam::{Vec2, Vec3, Vec4};
 use gltf::json::mesh::Mode;
@@ -153,7 +153,7 @@ impl<'a> Reader<'a> {
                 .at(place, "the number of vertices is no multiple of 3: the last triangle is incomplete and skipped");
         }
         let vertex = |i: usize| indices.as_ref().map_or(i as u32, |list| list[i]);
-        mesh.indices = triangles::assemble(mode, used, vertex).unwrap_or_default();
+        mesh.indices = assemble(mode, used, vertex).unwrap_or_default();
         let assembled = mesh.indices.len();
         mesh.indices.retain(|t| normals::area_vector(&mesh.positions, *t) != glam::DVec3::ZERO);
         let note = |reader: &mut Self, n: usize, what: &str| {
@@ -168,9 +168,9 @@ impl<'a> Reader<'a> {
             note(self, bent.unbalanced, "weights that do not add up to 1 are scaled to do so");
         }
 
-        let lost = normals::repair(&mut mesh.normals, &mesh.positions, &mesh.indices);
+        let lost = normals::repair_normals(&mut mesh.normals, &mesh.positions, &mesh.indices);
         note(self, lost, "normals of length zero are replaced by the triangles' own");
-        let lost = tangents::repair(&mut mesh.tangents, &mesh.normals);
+        let lost = normals::repair_tangents(&mut mesh.tangents, &mesh.normals);
         note(self, lost, "tangents without a direction beside the normal are replaced");
         Ok(mesh)
     }
@@ -193,4 +193,32 @@ impl<'a> Reader<'a> {
 
 fn map<const N: usize, V>(arrays: Vec<[f32; N]>, f: impl Fn([f32; N]) -> V) -> Vec<V> {
     arrays.into_iter().map(f).collect()
+}
+
+/// Triangles over `count` vertices in the order of their use; `None` for points and lines (glTF 2.0, section 3.7.2.1).
+/// Vertices that complete no triangle are left over.
+fn assemble(mode: Mode, count: usize, vertex: impl Fn(usize) -> u32) -> Option<Vec<[u32; 3]>> {
+    let pick = |t: [usize; 3]| t.map(&vertex);
+    let strip = count.saturating_sub(2);
+    match mode {
+        Mode::Triangles => Some((0..count / 3).map(|i| pick([3 * i, 3 * i + 1, 3 * i + 2])).collect()),
+        // Every other triangle of a strip runs the other way round.
+        Mode::TriangleStrip => Some((0..strip).map(|i| pick([i, i + 1 + i % 2, i + 2 - i % 2])).collect()),
+        Mode::TriangleFan => Some((0..strip).map(|i| pick([i + 1, i + 2, 0])).collect()),
+        Mode::Points | Mode::Lines | Mode::LineLoop | Mode::LineStrip => None,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    #[test]
+    fn modes_follow_the_specification() {
+        let of = |mode, count| assemble(mode, count, |i| i as u32 + 10);
+        assert_eq!(of(Mode::Triangles, 7), Some(vec![[10, 11, 12], [13, 14, 15]]));
+        assert_eq!(of(Mode::TriangleStrip, 5), Some(vec![[10, 11, 12], [11, 13, 12], [12, 13, 14]]));
+        assert_eq!(of(Mode::TriangleFan, 4), Some(vec![[11, 12, 10], [12, 13, 10]]));
+        assert_eq!(of(Mode::TriangleFan, 2), Some(vec![]));
+        assert_eq!(of(Mode::LineStrip, 4), None);
+    }
 }
