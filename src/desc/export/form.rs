@@ -53,6 +53,13 @@ impl Placed<'_> {
     }
 }
 
+/// Whether an object shares one mesh with others of its kind, all of them instances; emitters and interiors stand for
+/// themselves.
+pub(super) fn is_instance(one: &Placed, copies: &HashMap<Kind, usize>) -> bool {
+    let alone = one.emission.is_some() || medium_of(one.material, one.object.material).is_some();
+    matches!(one.form, Form::Mesh { .. }) && !alone && copies[&one.kind()] > 1
+}
+
 /// How many objects of each kind do not emit.
 pub(super) fn copies(placed: &[Placed]) -> HashMap<Kind, usize> {
     let mut counts = HashMap::new();

@@ -1,14 +1,14 @@
 //! Materials (glTF 2.0, section 3.9), the UV sets that they look at, and KHR_materials_variants: which a primitive has.
 
+use super::texture::TextureUse;
 use super::{Reader, Source};
-use super::texture::Slot;
 use crate::desc::{
     Alpha, ColorParam, Emission, Error, Interior, Layers, Material, MetallicRoughness, Model, NormalMap, ScalarParam,
     Sides, TextureRef,
 };
 use gltf::json;
-use json::mesh::Primitive;
 use json::material::AlphaMode;
+use json::mesh::Primitive;
 use json::validation::Checked;
 use serde::Deserialize;
 use serde_json::Value;
@@ -48,7 +48,7 @@ impl Reader<'_> {
 
         // Base colour and coverage share factor and texture.
         let factor = self.units(pbr.base_color_factor.0, &at("baseColorFactor"))?;
-        let texture = self.color_texture(pbr.base_color_texture.as_ref(), &at("baseColorTexture"))?;
+        let texture = self.core_texture(pbr.base_color_texture.as_ref(), true, &at("baseColorTexture"))?;
         let base_color = ColorParam { factor: [factor[R], factor[G], factor[B]], texture, vertex_color: true };
         let coverage = ScalarParam { factor: factor[A], texture: texture.map(|t| (t, A)) };
         let unlit = self.open("KHR_materials_unlit", place)?.is_some();
@@ -83,7 +83,8 @@ impl Reader<'_> {
         // Roughness is in G, metalness in B of one texture.
         let metallic = self.unit(pbr.metallic_factor.0, &at("metallicFactor"))?;
         let roughness = self.unit(pbr.roughness_factor.0, &at("roughnessFactor"))?;
-        let texture = self.data_texture(pbr.metallic_roughness_texture.as_ref(), &at("metallicRoughnessTexture"))?;
+        let texture =
+            self.core_texture(pbr.metallic_roughness_texture.as_ref(), false, &at("metallicRoughnessTexture"))?;
         let channel = |factor, channel| ScalarParam { factor, texture: texture.map(|t| (t, channel)) };
         let interior = self.interior(place)?;
         let ior = self.ior(place)?;
@@ -129,7 +130,7 @@ impl Reader<'_> {
         if factor == [0.0; 3] {
             return Ok(None);
         }
-        let texture = self.color_texture(m.emissive_texture.as_ref(), &format!("{place}/emissiveTexture"))?;
+        let texture = self.core_texture(m.emissive_texture.as_ref(), true, &format!("{place}/emissiveTexture"))?;
         let sides = if m.double_sided { Sides::Both } else { Sides::Front };
         Ok(Some(Emission { radiance: ColorParam { factor, texture, vertex_color: false }, sides, coat: None }))
     }
@@ -141,8 +142,8 @@ impl Reader<'_> {
     ) -> Result<Option<NormalMap>, Error> {
         let Some(map) = map else { return Ok(None) };
         let scale = self.finite(map.scale, &format!("{place}/scale"))?;
-        let slot = Slot::of_normals(map, self.source, place)?;
-        let texture = self.texture(slot, false, place)?;
+        let used = TextureUse::of_normals(map, self.source, place)?;
+        let texture = self.texture(used, false, place)?;
         Ok(texture.map(|texture| NormalMap { texture, scale }))
     }
 

@@ -15,7 +15,7 @@ use serde::Deserialize;
 use serde_json::Value;
 
 /// A use of a texture: a `textureInfo` of glTF 2.0 (section 5.30) with its KHR_texture_transform.
-pub(super) struct Slot {
+pub(super) struct TextureUse {
     /// Which texture of the document.
     pub texture: usize,
     /// n of TEXCOORD_n.
@@ -24,7 +24,7 @@ pub(super) struct Slot {
     pub transform: Affine2,
 }
 
-impl Slot {
+impl TextureUse {
     /// One that the `gltf` crate knows, at `place`.
     pub(super) fn of_info(info: &json::texture::Info, source: Source, place: &str) -> Result<Self, Error> {
         let transform = info.extensions.as_ref().and_then(|e| e.texture_transform.as_ref());
@@ -81,8 +81,8 @@ impl Reader<'_> {
     ) -> Result<Option<TextureRef>, Error> {
         let Some(value) = object.get(key) else { return Ok(None) };
         let place = format!("{place}/{key}");
-        let slot = Slot::of_json(value, self.source, &place)?;
-        self.texture(slot, srgb, &place)
+        let used = TextureUse::of_json(value, self.source, &place)?;
+        self.texture(used, srgb, &place)
     }
 
     /// The finite number under `key` of an extension's object, which stands at `place`; `default` where there is none.
@@ -126,36 +126,26 @@ fn affine(offset: Vec2, rotation: f32, scale: Vec2) -> Affine2 {
 
 impl Reader<'_> {
     /// A use of a texture. `None`, with a note, where it wants a third UV set of the material.
-    pub(super) fn texture(&mut self, slot: Slot, srgb: bool, place: &str) -> Result<Option<TextureRef>, Error> {
-        let texture = self.document_texture(slot.texture, srgb, place)?;
-        let uv_set = self.uv_sets.place(slot.uv_set);
+    pub(super) fn texture(&mut self, used: TextureUse, srgb: bool, place: &str) -> Result<Option<TextureRef>, Error> {
+        let texture = self.document_texture(used.texture, srgb, place)?;
+        let uv_set = self.uv_sets.place(used.uv_set);
         if uv_set.is_none() {
             self.notes
                 .at(place, "a material's textures look at more than two UV sets: those of the third are left out");
         }
-        Ok(uv_set.map(|uv_set| TextureRef { texture, uv_set, transform: slot.transform }))
+        Ok(uv_set.map(|uv_set| TextureRef { texture, uv_set, transform: used.transform }))
     }
 
-    /// A texture of colours: RGB is stored with the sRGB curve.
-    pub(super) fn color_texture(
+    /// A texture of the core's; `srgb`: its RGB are colours, stored with the sRGB curve, not numbers.
+    pub(super) fn core_texture(
         &mut self,
         info: Option<&json::texture::Info>,
+        srgb: bool,
         place: &str,
     ) -> Result<Option<TextureRef>, Error> {
         let Some(info) = info else { return Ok(None) };
-        let slot = Slot::of_info(info, self.source, place)?;
-        self.texture(slot, true, place)
-    }
-
-    /// A texture of numbers.
-    pub(super) fn data_texture(
-        &mut self,
-        info: Option<&json::texture::Info>,
-        place: &str,
-    ) -> Result<Option<TextureRef>, Error> {
-        let Some(info) = info else { return Ok(None) };
-        let slot = Slot::of_info(info, self.source, place)?;
-        self.texture(slot, false, place)
+        let used = TextureUse::of_info(info, self.source, place)?;
+        self.texture(used, srgb, place)
     }
 
     /// The texture `index` of the document, which `place` refers to.
@@ -304,17 +294,17 @@ mod tests {
         }
     }
 
-    /// A slot in plain JSON says the same as a typed one: index, set (overridden by the transform), transform.
+    /// A use in plain JSON says the same as a typed one: index, set (overridden by the transform), transform.
     #[test]
-    fn slots_in_plain_json() {
+    fn uses_in_plain_json() {
         let root = json::Root::default();
         let source = Source { file: std::path::Path::new("x.gltf"), root: &root, json: &serde_json::Value::Null };
         let transform = serde_json::json!({ "offset": [1, 2], "scale": [3, 4], "texCoord": 5 });
         let plain =
             serde_json::json!({ "index": 7, "texCoord": 1, "extensions": { "KHR_texture_transform": transform } });
-        let slot = Slot::of_json(&plain, source, "/x").unwrap();
-        assert_eq!((slot.texture, slot.uv_set), (7, 5));
-        assert_eq!(slot.transform.transform_point2(Vec2::ONE), Vec2::new(4.0, 6.0));
+        let used = TextureUse::of_json(&plain, source, "/x").unwrap();
+        assert_eq!((used.texture, used.uv_set), (7, 5));
+        assert_eq!(used.transform.transform_point2(Vec2::ONE), Vec2::new(4.0, 6.0));
         for (bad, place) in [
             (serde_json::json!(3), "/x"),
             (serde_json::json!({ "texCoord": 0 }), "/x"),
@@ -323,7 +313,7 @@ mod tests {
                 "/x/extensions/KHR_texture_transform",
             ),
         ] {
-            assert_eq!(Slot::of_json(&bad, source, "/x").err().unwrap().place, place, "{bad}");
+            assert_eq!(TextureUse::of_json(&bad, source, "/x").err().unwrap().place, place, "{bad}");
         }
     }
 }

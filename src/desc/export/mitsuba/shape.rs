@@ -2,7 +2,7 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Kind, Placed, copies, medium_of};
+use super::super::form::{Form, Kind, Placed, copies, is_instance, medium_of};
 use super::super::mesh::INSET;
 use super::xml::Element;
 use crate::desc::{Alpha, Sides};
@@ -19,9 +19,7 @@ pub(super) fn elements(placed: &[Placed], beside: &mut Beside) -> Result<Vec<Ele
             elements.extend(quadric(one, beside)?);
             continue;
         };
-        // Emitters and interiors stand for themselves; so does what stands once.
-        let alone = one.emission.is_some() || medium_of(one.material, one.object.material).is_some();
-        if alone || copies[&one.kind()] < 2 {
+        if !is_instance(one, &copies) {
             elements.extend(mesh(one, beside)?);
             continue;
         }

@@ -18,7 +18,7 @@ use crate::desc::{
 use glam::Affine2;
 
 /// What shapes name of a material.
-pub(super) struct Sheet {
+pub(super) struct MaterialUse {
     pub(super) material: String,
     /// Opacity, which belongs to shapes.
     pub(super) alpha: Option<Named<f32>>,
@@ -29,23 +29,23 @@ pub(super) fn write(
     placed: &[Placed],
     beside: &mut Beside,
     out: &mut Words,
-) -> Result<Vec<Option<Sheet>>, ExportError> {
+) -> Result<Vec<Option<MaterialUse>>, ExportError> {
     let scene = beside.scene;
-    let mut sheets = Vec::new();
+    let mut materials = Vec::new();
     for (index, material) in scene.materials.iter().enumerate() {
         if !placed.iter().any(|p| p.object.material == index) {
-            sheets.push(None);
+            materials.push(None);
             continue;
         }
         let turned = beside.turns_normals(placed, index);
         let mut w = Writer { beside, out, material, index, turned, names: 0, textures: 0 };
-        sheets.push(Some(w.sheet()?));
+        materials.push(Some(w.material_use()?));
         if let Some(medium) = medium_of(material, index) {
             let medium = out.line(&format!("MakeNamedMedium \"{medium}\"")).string("type", "homogeneous");
             medium.rgb("sigma_a", material.interior.absorption).rgb("sigma_s", [0.0; 3]);
         }
     }
-    Ok(sheets)
+    Ok(materials)
 }
 
 struct Writer<'a, 'b> {
@@ -64,7 +64,7 @@ impl Writer<'_, '_> {
         self.beside.note(format!("material `{}`: {text}", self.material.name));
     }
 
-    fn sheet(&mut self) -> Result<Sheet, ExportError> {
+    fn material_use(&mut self) -> Result<MaterialUse, ExportError> {
         let material = self.material;
         let alpha = match &material.alpha {
             Alpha::Opaque => None,
@@ -81,7 +81,7 @@ impl Writer<'_, '_> {
         if material.interior.priority != 0 {
             self.note("overlapping interiors have no priorities");
         }
-        Ok(Sheet { material: self.model(&material.model)?, alpha })
+        Ok(MaterialUse { material: self.model(&material.model)?, alpha })
     }
 
     /// Begins a material of this type; returns its name.

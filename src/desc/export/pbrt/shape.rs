@@ -2,9 +2,9 @@
 
 use super::super::ExportError;
 use super::super::beside::Beside;
-use super::super::form::{Form, Kind, Placed, copies, medium_of};
+use super::super::form::{Form, Kind, Placed, copies, is_instance, medium_of};
 use super::super::value::Color;
-use super::material::Sheet;
+use super::material::MaterialUse;
 use super::words::{Named, Words};
 use crate::desc::Sides;
 use glam::Mat4;
@@ -12,29 +12,24 @@ use std::collections::HashMap;
 
 pub(super) fn write(
     placed: &[Placed],
-    sheets: &[Option<Sheet>],
+    materials: &[Option<MaterialUse>],
     beside: &mut Beside,
     out: &mut Words,
 ) -> Result<(), ExportError> {
     let copies = copies(placed);
     let mut objects: HashMap<Kind, String> = HashMap::new();
     for one in placed {
-        let alone = one.emission.is_some() || medium_of(one.material, one.object.material).is_some();
-        let Form::Mesh { to_world, .. } = one.form else {
-            whole(one, sheets, beside, out)?;
+        let (true, Form::Mesh { to_world, .. }) = (is_instance(one, &copies), one.form) else {
+            whole(one, materials, beside, out)?;
             continue;
         };
-        if alone || copies[&one.kind()] < 2 {
-            whole(one, sheets, beside, out)?;
-            continue;
-        }
         let known = objects.get(&one.kind()).cloned();
         let name = match known {
             Some(name) => name,
             None => {
                 let name = format!("object-{}", objects.len());
                 out.line(&format!("ObjectBegin \"{name}\""));
-                surface(one, sheets, beside, out)?;
+                surface(one, materials, beside, out)?;
                 out.line("ObjectEnd");
                 objects.insert(one.kind(), name.clone());
                 name
@@ -49,7 +44,12 @@ pub(super) fn write(
 }
 
 /// An object where it stands.
-fn whole(one: &Placed, sheets: &[Option<Sheet>], beside: &mut Beside, out: &mut Words) -> Result<(), ExportError> {
+fn whole(
+    one: &Placed,
+    materials: &[Option<MaterialUse>],
+    beside: &mut Beside,
+    out: &mut Words,
+) -> Result<(), ExportError> {
     let (Form::Sphere { to_world, .. }
     | Form::Disk { to_world, .. }
     | Form::Cylinder { to_world, .. }
@@ -83,16 +83,21 @@ fn whole(one: &Placed, sheets: &[Option<Sheet>], beside: &mut Beside, out: &mut 
             }
         }
     }
-    surface(one, sheets, beside, out)?;
+    surface(one, materials, beside, out)?;
     out.line("AttributeEnd");
     Ok(())
 }
 
 /// Material, orientation and shape. A map that mirrors is seen by pbrt itself, which turns normals with it.
-fn surface(one: &Placed, sheets: &[Option<Sheet>], beside: &mut Beside, out: &mut Words) -> Result<(), ExportError> {
-    let sheet = sheets[one.object.material].as_ref();
-    if let Some(sheet) = sheet {
-        out.line(&format!("NamedMaterial \"{}\"", sheet.material));
+fn surface(
+    one: &Placed,
+    materials: &[Option<MaterialUse>],
+    beside: &mut Beside,
+    out: &mut Words,
+) -> Result<(), ExportError> {
+    let used = materials[one.object.material].as_ref();
+    if let Some(used) = used {
+        out.line(&format!("NamedMaterial \"{}\"", used.material));
     }
     if one.object.reversed {
         out.line("ReverseOrientation");
@@ -109,7 +114,7 @@ fn surface(one: &Placed, sheets: &[Option<Sheet>], beside: &mut Beside, out: &mu
             out.line("Shape \"plymesh\"").string("filename", &file)
         }
     };
-    match sheet.and_then(|sheet| sheet.alpha.as_ref()) {
+    match used.and_then(|used| used.alpha.as_ref()) {
         Some(Named::Constant(x)) if *x >= 1.0 => {}
         Some(alpha) => {
             out.scalar("alpha", alpha);
