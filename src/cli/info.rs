@@ -47,7 +47,8 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
         print!(" ({} stored, {} instances)", info.stored_triangles, info.instances);
     }
     println!(", {} spheres, disks and cylinders, {} objects", info.quadrics, scene.objects.len());
-    println!("materials  {}", list(&info.materials));
+    let kind = |m: &desc::Material| format!("{} ({})", m.name, m.model.kind());
+    println!("materials  {}", list(&scene.materials.iter().map(kind).collect::<Vec<_>>()));
     println!("textures   {} of {} images", info.textures, scene.images.len());
     println!("lights     {}", info.lights);
     if let Some(end) = scene.duration {
