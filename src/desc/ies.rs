@@ -77,9 +77,13 @@ pub fn frame(z: Vec3, x: Vec3) -> Mat3 {
     Mat3::from_cols(across, z.cross(across), z)
 }
 
-/// Reads a file; the error names the line, what was found and what was expected. `beside` reads the file of a tilt, which
-/// is named relative to this one.
-pub fn parse(bytes: &[u8], beside: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Profile, String> {
+/// Reads a file that stands alone; the error names the line, what was found and what was expected.
+pub fn parse(bytes: &[u8]) -> Result<Profile, String> {
+    parse_beside(bytes, &|_| Err("a profile in memory has no files beside it".into()))
+}
+
+/// Reads a file like [`parse`]; `beside` reads the file of a tilt, which is named relative to this one.
+pub fn parse_beside(bytes: &[u8], beside: &dyn Fn(&str) -> Result<Vec<u8>, String>) -> Result<Profile, String> {
     let text = String::from_utf8_lossy(bytes);
     let upper = |line: &str| line.trim().to_ascii_uppercase();
     let Some(tilt) = text.lines().position(|line| upper(line).starts_with("TILT=")) else {
@@ -233,11 +237,6 @@ mod tests {
 
     const FILE: &str = "IESNA:LM-63-2002\n[TEST] none\nTILT=INCLUDE\n1\n2\n0 90\n1, 0.9\n1 1000 2 3 2 1 2 0 0 0\n0.5 1.00001 60\n0 45 90\n0 90\n100 50 0\n80 40 0\n";
 
-    /// Reads a file that stands alone.
-    fn parse(bytes: &[u8]) -> Result<Profile, String> {
-        super::parse(bytes, &|_| Err("is not there".into()))
-    }
-
     /// Factors by hand: 1 straight down, 0.9 level, and so 0.95 at 45° and 0.97 at 27°.
     #[test]
     fn tilts_are_factors() {
@@ -264,7 +263,7 @@ mod tests {
     fn tilts_may_be_files() {
         let file = FILE.replace("TILT=INCLUDE\n1\n2\n0 90\n1, 0.9\n", "TILT=Lamp.tlt\n");
         let read = |bytes: &[u8]| {
-            super::parse(file.as_bytes(), &|name| {
+            parse_beside(file.as_bytes(), &|name| {
                 assert_eq!(name, "Lamp.tlt");
                 Ok(bytes.to_vec())
             })
@@ -274,7 +273,10 @@ mod tests {
             read(b"1\n2\n0 90\n1").unwrap_err(),
             "line 3: the tilt's file `Lamp.tlt`: line 4: the file ends; expected a factor of the tilt"
         );
-        assert_eq!(parse(file.as_bytes()).unwrap_err(), "line 3: the tilt's file `Lamp.tlt`: is not there");
+        assert_eq!(
+            parse(file.as_bytes()).unwrap_err(),
+            "line 3: the tilt's file `Lamp.tlt`: a profile in memory has no files beside it"
+        );
         assert_eq!(parse(file.replace("Lamp.tlt", "NONE").as_bytes()).unwrap().tilt, None);
     }
 

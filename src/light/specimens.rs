@@ -161,6 +161,7 @@ fn punctual() -> Vec<Specimen> {
         vertical: vec![0.0, 90.0],
         horizontal: vec![0.0],
         candela: vec![5.0, 1.0],
+        tilt: None,
     };
     let to_world = Mat3::IDENTITY;
     let measured = desc::Light::Profile { position, to_world, intensity, profile: profile.into() };

@@ -153,7 +153,7 @@ impl Reader<'_> {
             let tilt = self.buffers.file(&format!("{folder}{name}"), &place, &self.budget);
             tilt.map_err(|e| e.message)
         };
-        let profile = ies::parse(bytes, &beside).map_err(|message| self.source.invalid(&place, message))?;
+        let profile = ies::parse_beside(bytes, &beside).map_err(|message| self.source.invalid(&place, message))?;
         let profile = Arc::new(profile);
         self.profiles.insert(index, profile.clone());
         Ok(profile)

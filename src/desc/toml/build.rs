@@ -311,7 +311,7 @@ impl<'a> Builder<'a> {
         // A tilt's file stands beside the profile.
         let folder = plain.rfind('/').map_or("", |end| &plain[..=end]);
         let beside = |name: &str| self.folder.read(&format!("{folder}{name}"), "").map_err(|e| e.message);
-        let profile = ies::parse(&bytes, &beside);
+        let profile = ies::parse_beside(&bytes, &beside);
         let profile = profile.map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
         let profile = Arc::new(profile);
         self.profiles.insert(plain, profile.clone());
