@@ -4,8 +4,8 @@ mod common;
 
 use common::closed_mesh;
 use glam::Vec3;
-use radianza::bsdf::Bsdf;
-use radianza::bvh::{Isa, Quality, TriangleBvh, TriangleRef};
+use radianza::bsdf::Scratch;
+use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
 use radianza::desc::{self, ColorParam, Model, Object, Shape};
 use radianza::math::Ray;
 use radianza::medium::MediumStack;
@@ -49,7 +49,7 @@ fn ten_million_rays_at_edges_and_vertices_of_closed_meshes_find_them() {
                     let ray = Ray::new(o, (at - o).normalize());
                     // At the silhouette the rounding of the direction alone may lead past the mesh.
                     let grazing = o == outside && ray.d.dot((at - centre).normalize().into()).abs() < 0.15;
-                    let met = (bvh.nearest(&ray, TriangleRef::NONE).is_some(), bvh.occluded(&ray, TriangleRef::NONE));
+                    let met = (bvh.nearest(&ray, Slot::NONE).is_some(), bvh.occluded(&ray, Slot::NONE));
                     assert!(grazing || met == (true, true), "{isa:?}: a ray from {o} at {at} slipped through: {met:?}");
                     grazed.fetch_add(u64::from(grazing), Ordering::Relaxed);
                 }
@@ -79,7 +79,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
     const BOUNCES: u32 = 50;
     (0..PATHS).into_par_iter().for_each(|i| {
         let mut u = Sampler::new(Kind::Independent, 2, [0, 0], i, 1);
-        let mut scratch = Bsdf::new();
+        let mut scratch = Scratch::new();
         let (mut ray, mut leaving) =
             (Ray::new(Vec3::new(3.0, -1.0, 7.0), warp::uniform_sphere(u.next_2d())), Departure::NOWHERE);
         for bounce in 0..BOUNCES {

@@ -7,7 +7,7 @@
 //! F(c) = Σ_j a_j T_j(2√c − 1)    ⇒    E(o) = Σ_j a_j M_j(o),    M_j(o) the energy of a facet that reflects T_j
 //! ```
 //!
-//! The M_j are tabulated ([`super::Slice::reflected`]). Twelve terms follow a metal to rounding and two fringes of a film
+//! The M_j are tabulated ([`super::EnergyAt::reflected`]). Twelve terms follow a metal to rounding and two fringes of a film
 //! to 10⁻³ of their height.
 
 use crate::spectrum::Spectrum;

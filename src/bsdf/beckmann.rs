@@ -1,5 +1,6 @@
 //! The Beckmann microsurface: Gaussian slopes, Smith masking and shadowing, visible normals.
 
+use super::Ggx;
 use super::rough_reflection::Microsurface;
 use crate::math::sqr;
 use glam::{Vec2, Vec3};
@@ -93,6 +94,10 @@ impl Beckmann {
 }
 
 impl Microsurface for Beckmann {
+    #[inline]
+    fn of(ggx: Ggx) -> Self {
+        Self { ax: ggx.ax, ay: ggx.ay }
+    }
     #[inline]
     fn d(&self, m: Vec3) -> f32 {
         Self::d(self, m)

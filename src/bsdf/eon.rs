@@ -1,6 +1,5 @@
 //! Rough diffuse reflection that keeps its energy.
 
-use super::lambert::sample_cosine;
 use crate::math::safe_sqrt;
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -66,12 +65,6 @@ impl Eon {
         let average = 1.0 - self.average();
         let multiple = if average > 0.0 { lost / average } else { 0.0 };
         (single + self.multiple * multiple) * FRAC_1_PI
-    }
-
-    /// Direction of density |cos θ|/π on the side of `wo`: f varies by less than a factor of three.
-    #[inline]
-    pub(super) fn sample(&self, wo: Vec3, u: [f32; 2]) -> Vec3 {
-        sample_cosine(wo, u)
     }
 
     /// Directional albedo ρ E + ρ_ms (1 − E).

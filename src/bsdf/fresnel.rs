@@ -7,36 +7,40 @@ use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};
 
 /// Reflectance of a conductor, or of a layer whose reflectance is authored, over the angle.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Fresnel {
     /// F = F₀ + (F₉₀ − F₀)(1 − cos θ)⁵ (Schlick 1994).
     Schlick {
         /// Reflectance at normal incidence.
         f0: Spectrum,
         /// Reflectance at grazing incidence.
-        f90: Spectrum,
+        f90: f32,
     },
+    /// This much at every angle.
+    Constant(Spectrum),
     /// Exact; made by [`Fresnel::complex`].
-    Complex {
-        /// Real part of the index η − iκ per lane over the outside.
-        eta: Vec4,
-        /// Extinction κ.
-        k: Vec4,
-        /// Cosine-weighted mean of the reflectance over the hemisphere.
-        average: Spectrum,
-    },
+    Complex(Box<Conductor>),
     /// Under a thin film, wholly or in part; made by [`Fresnel::under_film`].
-    Film(Film),
+    Film(Box<Film>),
+}
+
+/// A metal's index, and what follows of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Conductor {
+    /// Real part of the index η − iκ per lane over the outside, and the extinction κ.
+    eta: Vec4,
+    k: Vec4,
+    fit: Fit,
 }
 
 /// Schlick's approximation beside bases under one film, f = F₀ + (F₉₀ − F₀)(1 − cos θ)⁵ + Σ weight · film.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Film {
     f0: Spectrum,
-    f90: Spectrum,
+    f90: f32,
     film: ThinFilm,
     bases: [Base; 2],
-    average: Spectrum,
+    fit: Fit,
 }
 
 /// What a film lies on.
@@ -47,17 +51,49 @@ struct Base {
     root: Vec4,
 }
 
+/// F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶ over the cosine c (the form of Hoffman 2019, "Fresnel Equations Considered
+/// Harmful").
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Fit {
+    /// F₀.
+    pub f0: Spectrum,
+    /// F₉₀.
+    pub f90: Spectrum,
+    /// k.
+    pub k: Spectrum,
+}
+
+impl Fit {
+    /// Exact at normal and grazing incidence and in the mean over the hemisphere.
+    fn new(f0: Spectrum, f90: Spectrum, average: Spectrum) -> Self {
+        // The means of (1 − c)⁵ and c(1 − c)⁶ are 1/21 and 1/126.
+        Self { f0, f90, k: (Spectrum::lerp(f0, f90, 1.0 / 21.0) - average) * 126.0 }
+    }
+
+    #[inline]
+    fn average(&self) -> Spectrum {
+        Spectrum::lerp(self.f0, self.f90, 1.0 / 21.0) - self.k * (1.0 / 126.0)
+    }
+
+    #[inline]
+    fn eval(&self, cos: f32) -> Spectrum {
+        let x = 1.0 - cos;
+        let fifth = pow5(x);
+        (Spectrum::lerp(self.f0, self.f90, fifth) - self.k * (cos * x * fifth)).max(Spectrum::ZERO)
+    }
+}
+
 impl Film {
-    /// With its average.
-    fn new(f0: Spectrum, f90: Spectrum, film: ThinFilm, bases: [Base; 2]) -> Self {
-        let mut new = Self { f0, f90, film, bases, average: Spectrum::ZERO };
-        new.average = Angular::new(|cos| new.eval(cos)).average();
+    fn new(f0: Spectrum, f90: f32, film: ThinFilm, bases: [Base; 2]) -> Self {
+        let mut new = Self { f0, f90, film, bases, fit: Fit::default() };
+        let average = Angular::new(|cos| new.eval(cos)).average();
+        new.fit = Fit::new(new.eval(1.0), new.eval(0.0), average);
         new
     }
 
     #[inline]
     fn eval(&self, cos: f32) -> Spectrum {
-        let mut f = Spectrum::lerp(self.f0, self.f90, pow5(1.0 - cos));
+        let mut f = Spectrum::lerp(self.f0, Spectrum::splat(self.f90), pow5(1.0 - cos));
         for base in self.bases.iter().filter(|b| b.weight > 0.0) {
             f += self.film.reflectance(cos, base.root) * base.weight;
         }
@@ -67,10 +103,11 @@ impl Film {
 
 impl Fresnel {
     /// Reflects everything at every angle.
-    pub const ONE: Self = Self::Schlick { f0: Spectrum::ONE, f90: Spectrum::ONE };
+    pub const ONE: Self = Self::Constant(Spectrum::ONE);
 
-    /// Schlick's approximation, black to white at the grazing angle.
-    pub fn schlick(f0: Spectrum, f90: Spectrum) -> Self {
+    /// Schlick's approximation, `f90` at the grazing angle.
+    #[inline]
+    pub fn schlick(f0: Spectrum, f90: f32) -> Self {
         Self::Schlick { f0, f90 }
     }
 
@@ -80,7 +117,8 @@ impl Fresnel {
         const N: u32 = 256;
         let node = |i: u32| (i as f32 + 0.5) / N as f32;
         let term = |i| conductor(sqr(node(i)), eta, k) * (4.0 * node(i).powi(3) / N as f32);
-        Self::Complex { eta, k, average: (0..N).map(term).sum() }
+        let fit = Fit::new(conductor(1.0, eta, k), conductor(0.0, eta, k), (0..N).map(term).sum());
+        Self::Complex(Box::new(Conductor { eta, k, fit }))
     }
 
     /// A base that reflects `f0` at normal incidence, by Schlick's approximation where it is bare and by Airy's sum on the
@@ -89,7 +127,7 @@ impl Fresnel {
         let bare = weight * (1.0 - share);
         let base = Base { weight: weight * share, root: f0.map(|f| f.clamp(0.0, 1.0).sqrt()).0 };
         let bases = [base, Base { weight: 0.0, root: Vec4::ZERO }];
-        Self::Film(Film::new(f0 * bare, Spectrum::splat(bare), film, bases))
+        Self::Film(Box::new(Film::new(f0 * bare, bare, film, bases)))
     }
 
     /// a · `self` + b · `other`, for two of Schlick's or two under the same film.
@@ -97,14 +135,26 @@ impl Fresnel {
         match (self, other) {
             (Self::Film(x), Self::Film(y)) => {
                 let base = |f: &Film, weight: f32| Base { weight: f.bases[0].weight * weight, ..f.bases[0] };
-                let mut mixed = Film { bases: [base(x, a), base(y, b)], ..*x };
-                (mixed.f0, mixed.f90) = (x.f0 * a + y.f0 * b, x.f90 * a + y.f90 * b);
-                mixed.average = x.average * a + y.average * b;
-                Self::Film(mixed)
+                let fit = Fit {
+                    f0: x.fit.f0 * a + y.fit.f0 * b,
+                    f90: x.fit.f90 * a + y.fit.f90 * b,
+                    k: x.fit.k * a + y.fit.k * b,
+                };
+                let bases = [base(x, a), base(y, b)];
+                Self::Film(Box::new(Film {
+                    f0: x.f0 * a + y.f0 * b,
+                    f90: x.f90 * a + y.f90 * b,
+                    film: x.film,
+                    bases,
+                    fit,
+                }))
+            }
+            (Self::Schlick { f0, f90 }, Self::Schlick { f0: g0, f90: g90 }) => {
+                Self::schlick(*f0 * a + *g0 * b, f90 * a + g90 * b)
             }
             _ => {
-                let ((f0, f90, _), (g0, g90, _)) = (self.fit(), other.fit());
-                Self::schlick(f0 * a + g0 * b, f90 * a + g90 * b)
+                let (f, g) = (self.fit(), other.fit());
+                Self::schlick(f.f0 * a + g.f0 * b, f.f90.max_element() * a + g.f90.max_element() * b)
             }
         }
     }
@@ -112,42 +162,51 @@ impl Fresnel {
     /// Reflectance at the angle of cosine `cos` ≥ 0.
     #[inline]
     pub fn eval(&self, cos: f32) -> Spectrum {
-        match *self {
-            Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, pow5(1.0 - cos)),
-            Self::Complex { eta, k, .. } => conductor(cos, eta, k),
-            Self::Film(ref film) => film.eval(cos),
+        match self {
+            Self::Schlick { f0, f90 } => Spectrum::lerp(*f0, Spectrum::splat(*f90), pow5(1.0 - cos)),
+            Self::Constant(f) => *f,
+            Self::Complex(metal) => conductor(cos, metal.eta, metal.k),
+            Self::Film(film) => film.eval(cos),
+        }
+    }
+
+    /// About [`Self::eval`], of metals and films by their fit: quicker, and enough to choose by.
+    #[inline]
+    pub(super) fn estimate(&self, cos: f32) -> Spectrum {
+        match self {
+            Self::Schlick { .. } | Self::Constant(_) => self.eval(cos),
+            Self::Complex(metal) => metal.fit.eval(cos),
+            Self::Film(film) => film.fit.eval(cos),
         }
     }
 
     /// Cosine-weighted mean over the hemisphere, 2 ∫ F(μ) μ dμ.
     #[inline]
     pub fn average(&self) -> Spectrum {
-        match *self {
-            Self::Schlick { f0, f90 } => Spectrum::lerp(f0, f90, 1.0 / 21.0),
-            Self::Complex { average, .. } => average,
-            Self::Film(ref film) => film.average,
+        match self {
+            Self::Schlick { f0, f90 } => Spectrum::lerp(*f0, Spectrum::splat(*f90), 1.0 / 21.0),
+            Self::Constant(f) => *f,
+            Self::Complex(metal) => metal.fit.average(),
+            Self::Film(film) => film.fit.average(),
         }
     }
 
     /// The series that rough surfaces sum their energy by; none for Schlick's, whose own two terms are tabulated.
     pub fn angular(&self) -> Option<Angular> {
         match self {
-            Self::Schlick { .. } => None,
-            Self::Complex { .. } | Self::Film(_) => Some(Angular::new(|cos| self.eval(cos))),
+            Self::Schlick { .. } | Self::Constant(_) => None,
+            Self::Complex(_) | Self::Film(_) => Some(Angular::new(|cos| self.eval(cos))),
         }
     }
 
-    /// `(F₀, F₉₀, k)` with F ≈ F₀ + (F₉₀ − F₀)(1 − c)⁵ − k c(1 − c)⁶: exact for Schlick; else exact at normal and grazing
-    /// incidence and in the mean (the form of Hoffman 2019, "Fresnel Equations Considered Harmful").
+    /// Its terms, or those that fit it: exact for Schlick.
     #[inline]
-    pub fn fit(&self) -> (Spectrum, Spectrum, Spectrum) {
-        match *self {
-            Self::Schlick { f0, f90 } => (f0, f90, Spectrum::ZERO),
-            Self::Complex { average, .. } | Self::Film(Film { average, .. }) => {
-                let (f0, f90) = (self.eval(1.0), self.eval(0.0));
-                // The means of (1 − c)⁵ and c(1 − c)⁶ are 1/21 and 1/126.
-                (f0, f90, (Spectrum::lerp(f0, f90, 1.0 / 21.0) - average) * 126.0)
-            }
+    pub fn fit(&self) -> Fit {
+        match self {
+            Self::Schlick { f0, f90 } => Fit { f0: *f0, f90: Spectrum::splat(*f90), k: Spectrum::ZERO },
+            Self::Constant(f) => Fit { f0: *f, f90: *f, k: Spectrum::ZERO },
+            Self::Complex(metal) => metal.fit,
+            Self::Film(film) => film.fit,
         }
     }
 }

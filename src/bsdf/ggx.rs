@@ -76,6 +76,10 @@ impl Ggx {
 
 impl Microsurface for Ggx {
     #[inline]
+    fn of(ggx: Self) -> Self {
+        ggx
+    }
+    #[inline]
     fn d(&self, m: Vec3) -> f32 {
         Self::d(self, m)
     }

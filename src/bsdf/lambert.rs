@@ -1,9 +1,10 @@
 //! Diffuse lobes: Lambert's, and the one that glows through a specular coat.
 
-use super::Fresnel;
 use super::angular::Angular;
-use super::energy::Slice;
+use super::energy::{Energy, EnergyAt};
 use super::fresnel::pow5;
+use super::layer::{self, Layer};
+use super::{Fresnel, multiple_scattering};
 use crate::spectrum::Spectrum;
 use crate::warp::cosine_hemisphere;
 use glam::Vec3;
@@ -20,94 +21,111 @@ pub struct Lambert {
 /// never reflect more than all, and exactly all where the base is white:
 ///
 /// ```text
-/// f = ρ/π (1 − E_s(o)) (1 − E_s(i)) / (1 − E_s,avg)
+/// f = ρ/π t(o) t(i) / ⟨t⟩,    t = 1 − E_s,    ⟨t⟩ = (1/π) ∫ t(i) cos θi dωi
 /// ```
 ///
-/// (Ashikhmin & Shirley 2000 in the form of Kelemen & Szirmay-Kalos 2001), per lane.
-#[derive(Clone, Copy, Debug)]
+/// (Ashikhmin & Shirley 2000 in the form of Kelemen & Szirmay-Kalos 2001), per lane. Beneath further layers that transmit
+/// T(w), which scale f by T(o) T(i), the mean is ⟨T t⟩.
+#[derive(Clone, Debug)]
 pub struct CoupledDiffuse {
-    /// ρ/(1 − E_s,avg).
+    /// ρ/⟨T t⟩.
     scaled: Spectrum,
-    average: Spectrum,
-    coat: Coat,
+    f0: Spectrum,
+    f90: f32,
+    /// The largest lane of ⟨T t⟩, for estimates.
+    average: f32,
+    energy: Option<EnergyAt>,
     /// In place of Schlick's terms.
-    film: Option<FilmCoat>,
+    film: Option<Box<FilmCoat>>,
 }
 
 /// Reflectance of a coat under a thin film.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 enum FilmCoat {
     Smooth(Fresnel),
-    /// By its series; the energy is that of the coat.
-    Rough(Angular),
+    /// By its series, and F_ms of the multiply scattered part; the energy is that of the coat.
+    Rough(Angular, Spectrum),
 }
 
 impl FilmCoat {
-    /// 1 − E_s towards `w`.
-    #[inline]
-    fn transmitted(&self, w: Vec3, coat: &Coat) -> Spectrum {
-        let e = match (self, &coat.energy) {
+    fn reflected(&self, w: Vec3, energy: Option<&EnergyAt>, e: Energy) -> Spectrum {
+        match (self, energy) {
             (Self::Smooth(fresnel), _) => fresnel.eval(w.z.abs().min(1.0)),
-            (Self::Rough(series), Some(energy)) => energy.reflected(series, w) + coat.f_ms * energy.at(w).loss,
-            (Self::Rough(_), None) => Spectrum::ONE,
-        };
-        (Spectrum::ONE - e).max(Spectrum::ZERO)
+            (Self::Rough(series, f_ms), Some(energy)) => energy.reflected(series, w, e.loss) + *f_ms * e.loss,
+            (Self::Rough(..), None) => Spectrum::ONE,
+        }
     }
 
-    fn transmitted_average(&self, coat: &Coat) -> Spectrum {
-        let e = match (self, &coat.energy) {
+    fn reflected_average(&self, energy: Option<&EnergyAt>) -> Spectrum {
+        match (self, energy) {
             (Self::Smooth(fresnel), _) => fresnel.average(),
-            (Self::Rough(series), Some(energy)) => energy.reflected_mean(series) + coat.f_ms * energy.mean.loss,
-            (Self::Rough(_), None) => Spectrum::ONE,
-        };
-        (Spectrum::ONE - e).max(Spectrum::ZERO)
+            (Self::Rough(series, f_ms), Some(energy)) => energy.reflected_mean(series) + *f_ms * energy.mean_loss(),
+            (Self::Rough(..), None) => Spectrum::ONE,
+        }
     }
 }
 
-/// Albedo of a specular coat by Schlick's terms, multiple scattering included.
+/// A specular coat of Schlick's reflectance, multiple scattering included.
 #[derive(Clone, Copy, Debug)]
 pub struct Coat {
     /// F at normal incidence.
     pub f0: Spectrum,
     /// F at grazing incidence.
-    pub f90: Spectrum,
-    /// F_ms of the multiply scattered part.
-    pub f_ms: Spectrum,
+    pub f90: f32,
     /// Energy of the microsurface; none where the coat is smooth.
-    pub energy: Option<Slice>,
+    pub energy: Option<EnergyAt>,
 }
 
 impl Coat {
     /// No coat: everything passes.
-    pub const NONE: Self = Self { f0: Spectrum::ZERO, f90: Spectrum::ZERO, f_ms: Spectrum::ZERO, energy: None };
+    pub const NONE: Self = Self { f0: Spectrum::ZERO, f90: 0.0, energy: None };
 
     /// A colourless smooth coat of this F₀.
     pub fn smooth(f0: f32) -> Self {
-        Self { f0: Spectrum::splat(f0), f90: Spectrum::ONE, f_ms: Spectrum::ZERO, energy: None }
+        Self { f0: Spectrum::splat(f0), f90: 1.0, energy: None }
     }
 
     /// 1 − E_s towards `w`, in [0, 1].
     #[inline]
     pub fn transmitted(&self, w: Vec3) -> Spectrum {
-        let (loss, schlick) = match &self.energy {
-            None => (0.0, pow5(1.0 - w.z.abs().min(1.0))),
-            Some(slice) => {
-                let e = slice.at(w);
-                (e.loss, e.parts[0])
-            }
-        };
-        self.complement(loss, schlick)
+        self.passed(w, self.energy.map_or_else(Energy::default, |energy| energy.at(w)))
+    }
+
+    /// 1 − E_s towards `w`, whose energy is known.
+    #[inline]
+    fn passed(&self, w: Vec3, e: Energy) -> Spectrum {
+        match &self.energy {
+            None => self.complement(Spectrum::ZERO, 0.0, pow5(1.0 - w.z.abs().min(1.0))),
+            Some(energy) => self.complement(self.multiple(energy.mean_loss()), e.loss, e.parts[0]),
+        }
     }
 
     /// 1 − E_s,avg, the cosine-weighted mean over the hemisphere.
     pub fn transmitted_average(&self) -> Spectrum {
-        let (loss, schlick) = self.energy.map_or((0.0, 1.0 / 21.0), |e| (e.mean.loss, e.mean.parts[0]));
-        self.complement(loss, schlick)
+        match &self.energy {
+            None => self.complement(Spectrum::ZERO, 0.0, 1.0 / 21.0),
+            Some(energy) => {
+                let mean = energy.mean();
+                self.complement(self.multiple(mean.loss), mean.loss, mean.parts[0])
+            }
+        }
+    }
+
+    /// Mean albedo over the hemisphere of what is scattered once.
+    pub fn once_average(&self) -> Spectrum {
+        let (loss, schlick) = self.energy.map_or((0.0, 1.0 / 21.0), |e| (e.mean().loss, e.mean().parts[0]));
+        Spectrum::ONE - self.complement(Spectrum::ZERO, loss, schlick)
+    }
+
+    /// F_ms of the multiply scattered part.
+    #[inline]
+    fn multiple(&self, mean_loss: f32) -> Spectrum {
+        multiple_scattering(Spectrum::lerp(self.f0, Spectrum::splat(self.f90), 1.0 / 21.0), mean_loss)
     }
 
     #[inline]
-    fn complement(&self, loss: f32, schlick: f32) -> Spectrum {
-        let e = self.f0 * (1.0 - loss - schlick) + self.f90 * schlick + self.f_ms * loss;
+    fn complement(&self, f_ms: Spectrum, loss: f32, schlick: f32) -> Spectrum {
+        let e = self.f0 * (1.0 - loss - schlick) + Spectrum::splat(self.f90 * schlick) + f_ms * loss;
         (Spectrum::ONE - e).max(Spectrum::ZERO)
     }
 }
@@ -118,58 +136,96 @@ impl CoupledDiffuse {
         Self::with(reflectance, coat, coat.transmitted_average(), None)
     }
 
-    /// Base under a coat whose reflectance is not Schlick's: of `coat`, only the energy and F_ms count.
-    pub fn under(reflectance: Spectrum, coat: Coat, fresnel: Fresnel) -> Self {
-        let film = match (coat.energy, fresnel.angular()) {
+    /// Base under a coat whose reflectance is not Schlick's: of `coat`, only the energy counts.
+    pub fn under(reflectance: Spectrum, coat: Coat, fresnel: &Fresnel) -> Self {
+        let film = match (&coat.energy, fresnel.angular()) {
             (_, None) => return Self::new(reflectance, coat),
-            (None, Some(_)) => FilmCoat::Smooth(fresnel),
-            (Some(_), Some(series)) => FilmCoat::Rough(series.covering()),
+            (None, Some(_)) => FilmCoat::Smooth(fresnel.clone()),
+            (Some(energy), Some(series)) => {
+                FilmCoat::Rough(series.covering(), multiple_scattering(fresnel.average(), energy.mean_loss()))
+            }
         };
-        Self::with(reflectance, coat, film.transmitted_average(&coat), Some(film))
+        let reflected = film.reflected_average(coat.energy.as_ref());
+        Self::with(reflectance, coat, (Spectrum::ONE - reflected).max(Spectrum::ZERO), Some(Box::new(film)))
     }
 
-    fn with(reflectance: Spectrum, coat: Coat, average: Spectrum, film: Option<FilmCoat>) -> Self {
-        // Where a coat lets nothing through there is no base to be seen.
-        let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
-        Self { scaled, average, coat, film }
+    fn with(reflectance: Spectrum, coat: Coat, average: Spectrum, film: Option<Box<FilmCoat>>) -> Self {
+        let Coat { f0, f90, energy } = coat;
+        let scaled = over(reflectance, average);
+        Self { scaled, f0, f90, average: average.max_element(), energy, film }
     }
 
-    /// The same base beneath further layers, which scale f by T(o) T(i): 1 − E_s,avg becomes the mean ⟨T (1 − E_s)⟩, which
-    /// `mean` finds, given the microsurface that 1 − E_s depends on and 1 − E_s itself.
-    pub(super) fn beneath(&self, mean: impl Fn(Option<&Slice>, &dyn Fn(Vec3) -> Spectrum) -> Spectrum) -> Self {
-        let average = mean(self.coat.energy.as_ref(), &|w| self.transmitted(w));
-        let reflectance = self.scaled * self.average;
-        let scaled = reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }));
-        Self { scaled, average, ..*self }
+    /// The same base beneath the layers `above`, in place of those that it lies beneath now.
+    pub(super) fn beneath(self, now: &[Layer], above: &[Layer]) -> Self {
+        let (reflectance, average) = (self.reflectance(now), self.mean(above));
+        Self { scaled: over(reflectance, average), average: average.max_element(), ..self }
     }
 
-    pub(super) fn energy_mut(&mut self) -> Option<&mut Slice> {
-        self.coat.energy.as_mut()
+    /// ρ, beneath layers.
+    pub(super) fn reflectance(&self, above: &[Layer]) -> Spectrum {
+        self.scaled * self.mean(above)
+    }
+
+    /// ⟨T t⟩.
+    fn mean(&self, above: &[Layer]) -> Spectrum {
+        if !above.is_empty() {
+            let t = |mu: f32| above.iter().map(|layer| layer.transmitted_at(mu)).product::<f32>();
+            return layer::mean(self.is_anisotropic(), |w| self.transmitted(w, self.energy_of(w)) * t(w.z));
+        }
+        match &self.film {
+            None => self.coat().transmitted_average(),
+            Some(film) => (Spectrum::ONE - film.reflected_average(self.energy.as_ref())).max(Spectrum::ZERO),
+        }
+    }
+
+    #[inline]
+    fn coat(&self) -> Coat {
+        Coat { f0: self.f0, f90: self.f90, energy: self.energy }
+    }
+
+    #[inline]
+    pub(super) fn energy(&self) -> Option<&EnergyAt> {
+        self.energy.as_ref()
+    }
+
+    fn energy_of(&self, w: Vec3) -> Energy {
+        self.energy.map_or_else(Energy::default, |energy| energy.at(w))
     }
 
     pub(super) fn is_anisotropic(&self) -> bool {
-        self.coat.energy.is_some_and(|energy| energy.is_anisotropic())
+        self.energy.is_some_and(|energy| energy.is_anisotropic())
     }
 
-    /// f \[1/sr\] for directions on the same side.
+    /// t towards `w`, whose energy is `e`.
     #[inline]
-    pub(super) fn f(&self, wo: Vec3, wi: Vec3) -> Spectrum {
-        self.scaled * self.transmitted(wo) * self.transmitted(wi) * FRAC_1_PI
-    }
-
-    /// Directional albedo.
-    #[inline]
-    pub(super) fn albedo(&self, wo: Vec3) -> Spectrum {
-        self.scaled * self.transmitted(wo) * self.average
-    }
-
-    #[inline]
-    fn transmitted(&self, w: Vec3) -> Spectrum {
+    pub(super) fn transmitted(&self, w: Vec3, e: Energy) -> Spectrum {
         match &self.film {
-            None => self.coat.transmitted(w),
-            Some(film) => film.transmitted(w, &self.coat),
+            None => self.coat().passed(w, e),
+            Some(film) => (Spectrum::ONE - film.reflected(w, self.energy.as_ref(), e)).max(Spectrum::ZERO),
         }
     }
+
+    /// f \[1/sr\] for directions on the same side that `t_o` and `t_i` of the coat transmit.
+    #[inline]
+    pub(super) fn f(&self, t_o: Spectrum, t_i: Spectrum) -> Spectrum {
+        self.scaled * t_o * t_i * FRAC_1_PI
+    }
+
+    /// About the directional albedo, where the coat transmits `t`.
+    #[inline]
+    pub(super) fn estimate(&self, t: Spectrum) -> Spectrum {
+        self.scaled * t * self.average
+    }
+
+    /// Directional albedo, beneath layers that are still to dim it.
+    pub(super) fn albedo(&self, wo: Vec3, above: &[Layer]) -> Spectrum {
+        self.reflectance(above) * self.transmitted(wo, self.energy_of(wo))
+    }
+}
+
+/// ρ/⟨t⟩; where a coat lets nothing through there is no base to be seen.
+fn over(reflectance: Spectrum, average: Spectrum) -> Spectrum {
+    reflectance.div_or_zero(average.map(|t| if t > 1e-6 { t } else { 0.0 }))
 }
 
 /// Direction of density |cos θ|/π on the side of `wo`.

@@ -27,9 +27,11 @@
 //! Then T is turned and ⟨T t⟩ is kept: as T and t cos θ both grow with the height over their horizons, no turn makes the
 //! true mean larger (Hardy, Littlewood & Pólya 1934, theorem 378), so the albedo is at most ρ T(o) t(o).
 
-use super::energy::Slice;
-use super::lambert::Coat;
+use super::energy::EnergyAt;
+use super::fresnel::pow5;
+use super::multiple_scattering;
 use super::sheen::SheenAlbedo;
+use crate::spectrum::Spectrum;
 use glam::Vec3;
 
 /// Something thin over the lobes of a surface.
@@ -45,15 +47,23 @@ pub struct Layer {
 /// E(w) of a layer that covers all.
 #[derive(Clone, Copy, Debug)]
 enum Albedo {
-    Coat(Coat),
+    Smooth { f0: f32 },
+    Rough { f0: f32, f_ms: f32, energy: EnergyAt },
     Sheen(SheenAlbedo),
 }
 
 impl Layer {
-    /// A colourless specular coat that covers the share `factor`, with the normal `normal` where it is not that of
-    /// the surface.
-    pub fn coat(factor: f32, coat: Coat, normal: Option<Vec3>) -> Self {
-        Self { normal, factor, albedo: Albedo::Coat(coat) }
+    /// A colourless specular coat that reflects `f0` at normal incidence and covers the share `factor`: of this
+    /// microsurface, or smooth; with the normal `normal` where it is not that of the surface.
+    pub fn coat(factor: f32, f0: f32, energy: Option<EnergyAt>, normal: Option<Vec3>) -> Self {
+        let albedo = match energy {
+            None => Albedo::Smooth { f0 },
+            Some(energy) => {
+                let average = Spectrum::splat(f0 + (1.0 - f0) / 21.0);
+                Albedo::Rough { f0, f_ms: multiple_scattering(average, energy.mean_loss()).0.x, energy }
+            }
+        };
+        Self { normal, factor, albedo }
     }
 
     /// Sheen whose brightest colour is `factor`.
@@ -64,14 +74,18 @@ impl Layer {
     /// T(w), in [0, 1].
     #[inline]
     pub fn transmitted(&self, w: Vec3) -> f32 {
-        self.transmitted_at(self.normal.map_or(w.z, |n| n.dot(w)).abs())
+        self.transmitted_at(self.normal.map_or(w.z, |n| n.dot(w)).abs().min(1.0))
     }
 
     /// T at the cosine `mu` ≥ 0 to the normal of the layer.
     #[inline]
     pub(super) fn transmitted_at(&self, mu: f32) -> f32 {
         let albedo = match &self.albedo {
-            Albedo::Coat(coat) => 1.0 - coat.transmitted(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu)).0.x,
+            Albedo::Smooth { f0 } => f0 + (1.0 - f0) * pow5(1.0 - mu),
+            Albedo::Rough { f0, f_ms, energy } => {
+                let e = energy.at(Vec3::new((1.0 - mu * mu).max(0.0).sqrt(), 0.0, mu));
+                f0 * (1.0 - e.loss - e.parts[0]) + e.parts[0] + f_ms * e.loss
+            }
             Albedo::Sheen(sheen) => sheen.at(mu),
         };
         (1.0 - self.factor * albedo).clamp(0.0, 1.0)
@@ -91,13 +105,13 @@ const NODES: [(f32, f32); 8] = [
     (0.980_144_9, 0.050_614_268),
 ];
 
-/// (1/π) ∫ g(w) cos θ dω over the hemisphere; `slice` is the microsurface whose azimuth g depends on.
-pub(super) fn mean<T>(slice: Option<&Slice>, g: impl Fn(Vec3) -> T) -> T
+/// (1/π) ∫ g(w) cos θ dω over the hemisphere, of g that depends on the azimuth where `anisotropic`.
+pub(super) fn mean<T>(anisotropic: bool, g: impl Fn(Vec3) -> T) -> T
 where
     T: std::ops::Mul<f32, Output = T> + std::iter::Sum,
 {
     // By symmetry a quarter of the circle is enough.
-    let azimuths: &[f32] = if slice.is_some_and(Slice::is_anisotropic) {
+    let azimuths: &[f32] = if anisotropic {
         &[0.098_174_77, 0.294_524_3, 0.490_873_85, 0.687_223_4, 0.883_572_93, 1.079_922_5, 1.276_272, 1.472_621_6]
     } else {
         &[0.0]
@@ -120,8 +134,8 @@ mod tests {
     /// T(n) − ⟨T⟩.
     #[test]
     fn what_the_minimum_loses_at_most() {
-        let lost = |layer: Layer| layer.transmitted_at(1.0) - mean(None, |w| layer.transmitted_at(w.z));
-        let coat = lost(Layer::coat(1.0, Coat::smooth(0.04), None));
+        let lost = |layer: Layer| layer.transmitted_at(1.0) - mean(false, |w| layer.transmitted_at(w.z));
+        let coat = lost(Layer::coat(1.0, 0.04, None, None));
         assert!((coat - 0.96 / 21.0).abs() < 1e-5, "{coat}");
         let sheen: Vec<f32> = (1..=10).map(|i| lost(Layer::sheen(1.0, SheenAlbedo::new(i as f32 / 10.0)))).collect();
         println!("{sheen:?}");
@@ -130,11 +144,11 @@ mod tests {
 
     #[test]
     fn the_mean_is_the_mean() {
-        assert!((mean(None, |_| 1.0) - 1.0).abs() < 1e-6);
-        assert!((mean(None, |w| (1.0 - w.z).powi(5)) - 1.0 / 21.0).abs() < 1e-6);
-        let slice = Slice::new(Interface::Mirror, Ggx { ax: 0.3, ay: 0.3 });
-        assert!((mean(None, |w| slice.at(w).loss) - slice.mean.loss).abs() < 1e-4);
-        let slice = Slice::new(Interface::Mirror, Ggx { ax: 0.6, ay: 0.1 });
-        assert!((mean(Some(&slice), |w| slice.at(w).loss) - slice.mean.loss).abs() < 2e-4);
+        assert!((mean(false, |_| 1.0) - 1.0).abs() < 1e-6);
+        assert!((mean(false, |w| (1.0 - w.z).powi(5)) - 1.0 / 21.0).abs() < 1e-6);
+        let slice = EnergyAt::new(Interface::Mirror, Ggx { ax: 0.3, ay: 0.3 });
+        assert!((mean(false, |w| slice.at(w).loss) - slice.mean_loss()).abs() < 1e-4);
+        let slice = EnergyAt::new(Interface::Mirror, Ggx { ax: 0.6, ay: 0.1 });
+        assert!((mean(true, |w| slice.at(w).loss) - slice.mean_loss()).abs() < 2e-4);
     }
 }

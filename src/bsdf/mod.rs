@@ -3,6 +3,8 @@
 //! Everything here works in the local shading frame (z = ns). `wo` and `wi` are unit vectors that point away from
 //! the surface; one is below the horizon where light is transmitted. Numbers come in, `Option<Sample>` goes out.
 //!
+//! Lobes are small, immutable and bound to no direction; [`Bsdf::towards`] looks up what one direction needs, once.
+//!
 //! z always points to the front (outside). Opaque lobes are two-sided; dielectrics take the side from the sign of wo.z.
 //! A [`Bsdf`] is a sum of [`Lobe`]s; each lobe family has its file:
 //!
@@ -15,6 +17,7 @@
 //! | `rough_reflection` | GGX and Cook–Torrance reflection; GGX transmission through a thin sheet |
 //! | `rough_dielectric` | GGX reflection and refraction |
 //! | `sheen` | fibres |
+//! | `mixture`, `toward` | the sum, and what is drawn from it seen from one direction |
 //! | `entry`, `layer` | a lobe in its frame, and beneath the layers that dim it |
 //! | `phong` | Phong |
 //! | `filmed_dielectric` | smooth and rough dielectric under a thin film |
@@ -40,27 +43,28 @@ mod sheen;
 mod smooth;
 mod specimens;
 mod thin_film;
+mod toward;
 
 pub use angular::Angular;
 pub use beckmann::Beckmann;
-pub use diffuse_transmission::DiffuseTransmission;
-pub use energy::{Atlas, Energy, EnergyTable, Interface, Slice};
+pub use energy::{DielectricEnergy, DielectricPair, Energy, EnergyAt, EnergyTable, FilmedEnergy, Interface};
 pub use entry::MAX_LAYERS;
 pub use eon::Eon;
 pub use filmed_dielectric::{FilmedDielectric, RoughFilmedDielectric};
-pub use fresnel::Fresnel;
+pub use fresnel::{Fit, Fresnel};
 pub use ggx::{Ggx, MIN_ALPHA};
 pub use lambert::{Coat, CoupledDiffuse, Lambert};
 pub use layer::Layer;
 pub use lobe::Lobe;
-pub use mixture::{Bsdf, MAX_LOBES};
+pub use mixture::{Bsdf, MAX_LOBES, MOST_DELTAS};
 pub use phong::Phong;
-pub use rough_dielectric::{DielectricTables, RoughDielectric};
+pub use rough_dielectric::RoughDielectric;
 pub use rough_reflection::{Micro, Microsurface, RoughReflection, RoughThin, multiple_scattering};
 pub use sheen::{Sheen, SheenAlbedo};
 pub use smooth::{Delta, Mirror, SmoothDielectric, ThinTransmission};
 pub use specimens::{Lazy, Specimen, specimens};
 pub use thin_film::ThinFilm;
+pub use toward::{BsdfAt, Scratch, Toward};
 
 use crate::spectrum::Spectrum;
 use glam::Vec3;
@@ -118,4 +122,6 @@ pub struct Eval {
     /// Density \[1/sr\] with which `sample` draws `wi`, the choice among lobes included. It integrates over the
     /// sphere to one minus the probability of the delta lobes (and of failed draws).
     pub pdf: f32,
+    /// Density \[1/sr\] with which a draw from `wi` takes `wo`.
+    pub pdf_rev: f32,
 }

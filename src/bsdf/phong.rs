@@ -23,19 +23,21 @@ pub struct Phong {
 }
 
 impl Phong {
-    /// f \[1/sr\] and density \[1/sr\] of `wi`, (n + 1)/(2π) cosⁿα; nothing across the surface.
+    /// f \[1/sr\] and density \[1/sr\] of `wi`, (n + 1)/(2π) cosⁿα, which is that of `wo` seen from `wi`; nothing across the
+    /// surface.
     #[inline]
-    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32, f32) {
         if wo.z * wi.z <= 0.0 {
-            return (Spectrum::ZERO, 0.0);
+            return (Spectrum::ZERO, 0.0, 0.0);
         }
         // cos α = 1 − |wi − r|²/2, for narrow lobes need more digits than the cosine has.
         let off = 0.5 * (wi - reflect(wo, Vec3::Z)).length_squared();
         if off >= 1.0 {
-            return (Spectrum::ZERO, 0.0);
+            return (Spectrum::ZERO, 0.0, 0.0);
         }
         let lobe = (self.exponent * (-off).ln_1p()).exp() / TAU;
-        (self.reflectance * ((self.exponent + 2.0) * lobe), (self.exponent + 1.0) * lobe)
+        let pdf = (self.exponent + 1.0) * lobe;
+        (self.reflectance * ((self.exponent + 2.0) * lobe), pdf, pdf)
     }
 
     /// Draws `wi` by cos α = u^(1/(n + 1)); nothing where that is below the horizon.

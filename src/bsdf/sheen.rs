@@ -19,9 +19,9 @@
 
 use super::energy::{Grid, Stencil, gauss_legendre};
 use super::ggx::half_vector;
+use super::lobe::{Aspect, importance};
 use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};
-use rayon::prelude::*;
 use std::f32::consts::TAU;
 use std::f64::consts::PI;
 use std::sync::LazyLock;
@@ -68,6 +68,7 @@ fn place(roughness: f32) -> f32 {
     (roughness - MIN_ROUGHNESS) / (1.0 - MIN_ROUGHNESS)
 }
 
+/// The tables, made the first time on the thread that asks: of those that wait for them none takes up other work.
 fn tables() -> &'static Tables {
     static TABLES: LazyLock<Tables> = LazyLock::new(Tables::new);
     &TABLES
@@ -122,20 +123,21 @@ impl Tables {
         let rule = &gauss_legendre::<32>();
         let root = |i: usize, n: usize| i as f64 / (n - 1) as f64;
         let roughness = |j: usize| f64::from(MIN_ROUGHNESS) + (1.0 - f64::from(MIN_ROUGHNESS)) * root(j, ny);
-        let areas =
-            Grid::tabulate(nx, ny, |i, j| Vec4::X * seen_area(rule, root(i, nx).powi(2), roughness(j).powi(2)) as f32);
+        let areas = Grid::tabulate_here(nx, ny, |i, j| {
+            Vec4::X * seen_area(rule, root(i, nx).powi(2), roughness(j).powi(2)) as f32
+        });
         let area = |j: usize| {
             let row = Stencil::new(root(j, ny) as f32, ny);
             let areas = &areas;
             move |mu: f64| f64::from(areas.at((mu as f32).sqrt(), row).x)
         };
-        let grid = Grid::tabulate(nx, ny, |i, j| {
+        let grid = Grid::tabulate_here(nx, ny, |i, j| {
             let (o, alpha, area) = (root(i, nx).powi(2), roughness(j).powi(2), area(j));
             let term = |&(x, w): &(f64, f64)| w * 2.0 * x * ring(rule, o, x * x, alpha, area);
             let albedo: f64 = rule.iter().map(term).sum();
             Vec4::new(area(o) as f32, albedo.sqrt().sqrt() as f32, 0.0, 0.0)
         });
-        let draws = (0..VIEWS * ny).into_par_iter().map(|index| {
+        let draws = (0..VIEWS * ny).map(|index| {
             let (o, j) = (((index % VIEWS) as f64 + 0.5) / VIEWS as f64, index / VIEWS);
             let (alpha, area) = (roughness(j).powi(2), area(j));
             let node = |k: usize| {
@@ -156,6 +158,11 @@ impl Tables {
 }
 
 impl SheenAlbedo {
+    /// Makes the tables, which takes some hundredths of a second: when a material is compiled.
+    pub fn prepare() {
+        tables();
+    }
+
     /// Of this perceptual roughness.
     pub fn new(roughness: f32) -> Self {
         let roughness = roughness.clamp(MIN_ROUGHNESS, 1.0);
@@ -195,25 +202,36 @@ impl Sheen {
         self.color * self.albedo.at(wo.z.abs())
     }
 
-    /// f \[1/sr\] and density \[1/sr\] of `wi`; nothing across the surface.
+    /// What is asked again and again of the direction `w`.
     #[inline]
-    pub(super) fn eval(&self, wo: Vec3, wi: Vec3) -> (Spectrum, f32) {
+    pub(super) fn aspect(&self, w: Vec3) -> Aspect {
+        let (area, albedo) = self.albedo.table(w.z.abs());
+        Aspect { loss: area, weight: importance(self.color * albedo), ..Aspect::NONE }
+    }
+
+    /// f \[1/sr\], and the densities \[1/sr\] of `wi` and, seen from there, of `wo`; nothing across the surface.
+    #[inline]
+    pub(super) fn eval(&self, [wo, wi]: [Vec3; 2], [seen_o, seen_i]: [&Aspect; 2]) -> (Spectrum, f32, f32) {
         if wo.z * wi.z <= 0.0 {
-            return (Spectrum::ZERO, 0.0);
+            return (Spectrum::ZERO, 0.0, 0.0);
         }
         let (o, i) = (wo.z.abs().min(1.0), wi.z.abs().min(1.0));
         let (h, _) = half_vector(wo, wi);
         let alpha = self.albedo.roughness * self.albedo.roughness;
-        let masked = 4.0 * (self.albedo.table(o).0 * i + self.albedo.table(i).0 * o - o * i);
+        let masked = 4.0 * (seen_o.loss * i + seen_i.loss * o - o * i);
         let f = self.color * (d(h.x * h.x + h.y * h.y, alpha) / masked);
+        (f, self.density(o, i), self.density(i, o))
+    }
 
+    /// Density of draws at the cosine `i`, seen from the cosine `o`.
+    #[inline]
+    fn density(&self, o: f32, i: f32) -> f32 {
         // dω = 2π dμ = 4π x dx.
         let [pdf, _] = self.albedo.draws(o);
         let t = i.sqrt() * INTERVALS as f32;
         let k = (t as usize).min(INTERVALS - 1);
         let p = pdf[k] + (pdf[k + 1] - pdf[k]) * (t - k as f32);
-        let p = (1.0 - UNIFORM) * p / (2.0 * TAU * i.sqrt()) + UNIFORM / TAU;
-        (f, p)
+        (1.0 - UNIFORM) * p / (2.0 * TAU * i.sqrt()) + UNIFORM / TAU
     }
 
     /// Draws `wi`: a height by the table, and any azimuth.

@@ -6,7 +6,7 @@ use crate::spectrum::Spectrum;
 use glam::Vec3;
 
 /// Reflects into the mirror direction.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct Mirror {
     /// Reflectance over the angle.
     pub fresnel: Fresnel,
@@ -22,7 +22,7 @@ pub struct SmoothDielectric {
 }
 
 /// Infinitely thin sheet that lets through, unbent, what its coat does not reflect: tint (1 − F).
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct ThinTransmission {
     /// What the coat reflects, by a lobe of its own.
     pub fresnel: Fresnel,

@@ -1,7 +1,7 @@
 //! Local illumination: emitted and direct light, L = Le + ∫ f Le |cos| dω, without recursion.
 
 use super::{Event, Method, Observer, Walk, direct_light, first_surface, sees_lights, strategy};
-use crate::bsdf::{Bsdf, Pdf};
+use crate::bsdf::{Pdf, Scratch};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -11,7 +11,7 @@ use crate::spectrum::Spectrum;
 /// L = Le + ∫ f Le |cos| dω.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut walk) = (PixelSample::default(), Walk::new(method, ray, sampler));
-    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Bsdf::new());
+    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Scratch::new());
     let event = walk.advance(method, sampler, &mut vertex, watch);
     sample.radiance = walk.emission(method, event, &vertex, watch);
     let Event::Surface = event else { return sample };

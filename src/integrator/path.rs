@@ -1,7 +1,7 @@
 //! The path tracer: equation (2), recursion and all, by one random path a sample.
 
 use super::{Event, Method, Observer, Walk, direct_light, first_surface, sees_lights, strategy};
-use crate::bsdf::Bsdf;
+use crate::bsdf::Scratch;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -11,7 +11,7 @@ use crate::scene::Vertex;
 /// the light sampler and met by chance, and light that arrives reflected, by recursion.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut walk) = (PixelSample::default(), Walk::new(method, ray, sampler));
-    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Bsdf::new());
+    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Scratch::new());
     loop {
         let u = walk.numbers(sampler);
 

@@ -2,7 +2,7 @@
 //! (glTF's unlit materials) emit it.
 
 use super::{Event, Method, Observer, Walk, first_surface};
-use crate::bsdf::Bsdf;
+use crate::bsdf::Scratch;
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -11,7 +11,7 @@ use crate::scene::Vertex;
 /// L = Le.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let (mut sample, mut walk) = (PixelSample::default(), Walk::new(method, ray, sampler));
-    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Bsdf::new());
+    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Scratch::new());
     let event = walk.advance(method, sampler, &mut vertex, watch);
     sample.radiance = walk.emission(method, event, &vertex, watch);
     if event == Event::Surface {

@@ -1,7 +1,7 @@
 //! One random walk from the camera, and its next step.
 
 use super::{Classes, Drawn, Method, Observer, emitted, environment, medium};
-use crate::bsdf::Bsdf;
+use crate::bsdf::Scratch;
 use crate::math::Ray;
 use crate::medium::MediumStack;
 use crate::sampler::Sampler;
@@ -157,7 +157,7 @@ impl Walk {
         sampler: &mut Sampler,
         vertex: &'a Vertex,
         interface: &'a MediumInterface,
-        scratch: &'a mut Bsdf,
+        scratch: &'a mut Scratch,
     ) -> Shading<'a> {
         let mut shading = method.scene.shade(vertex, interface, self.lane, scratch);
         if shading.is_bent() {

@@ -3,7 +3,7 @@
 
 use super::local::reflected;
 use super::{Event, Method, Observer, Walk, first_surface};
-use crate::bsdf::{Bsdf, Pdf};
+use crate::bsdf::{Pdf, Scratch};
 use crate::film::PixelSample;
 use crate::math::Ray;
 use crate::sampler::Sampler;
@@ -21,7 +21,7 @@ const PATH_SURVIVAL: f32 = 0.95;
 /// L = Le + ∫ (f − f_perfect) Le |cos| dω + Σ_perfect k L.
 pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, watch: &mut O) -> PixelSample {
     let mut sample = PixelSample::default();
-    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Bsdf::new());
+    let (mut vertex, mut scratch) = (Vertex::NOWHERE, Scratch::new());
     // Every branch with numbers of its own.
     let (mut branches, mut forks) = (vec![(Walk::new(method, ray, sampler), sampler.clone())], 0);
     while let Some((mut walk, mut sampler)) = branches.pop() {

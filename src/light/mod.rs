@@ -8,6 +8,7 @@
 mod alias;
 mod area;
 mod cells;
+mod choice;
 mod choose;
 mod directional;
 mod emitter;
@@ -17,7 +18,6 @@ mod point;
 mod profile;
 mod quadric;
 mod receiver;
-mod sampler;
 mod specimens;
 mod spherical_triangle;
 mod spot;
@@ -26,6 +26,7 @@ pub mod tree;
 mod triangle;
 
 pub use alias::Alias;
+pub use choice::Choice;
 pub use choose::Lights;
 pub use directional::DirectionalLight;
 pub use emitter::Emitter;
@@ -34,7 +35,6 @@ pub use point::PointLight;
 pub use profile::ProfileLight;
 pub use quadric::QuadricLight;
 pub use receiver::{Facing, Receiver};
-pub use sampler::LightSampler;
 pub use specimens::{Specimen, specimens};
 pub use spherical_triangle::SphericalTriangle;
 pub use spot::SpotLight;
@@ -129,7 +129,7 @@ impl Light {
         }
     }
 
-    /// [`sample`](Self::sample) of all lights but triangles. Outlined, so that those stay in registers.
+    /// The same of all but triangles: apart from these, so that they do not pass through memory for its sake.
     #[inline(never)]
     fn sample_large(&self, p: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         match self {
@@ -251,8 +251,7 @@ impl Light {
         }
     }
 
-    /// Radiance from infinity along the unit vector `wi`, and the density over solid angle with which
-    /// [`sample`](Self::sample) draws it; 0 of other lights.
+    /// The same with the density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity.
     #[inline]
     pub fn le_and_pdf_from(&self, wi: Vec3A) -> (Spectrum, f32) {
         match self {

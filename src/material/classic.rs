@@ -8,7 +8,7 @@ use crate::spectrum::Spectrum;
 
 /// A mirror of this reflectance at every angle.
 pub(super) fn mirror(reflectance: Spectrum) -> Lobe {
-    Lobe::Mirror(Mirror { fresnel: Fresnel::schlick(reflectance, reflectance) })
+    Lobe::Mirror(Mirror { fresnel: Fresnel::Constant(reflectance) })
 }
 
 /// Diffuse, rough or not.
@@ -43,9 +43,8 @@ impl Dielectric {
     #[inline]
     pub(super) fn lobe(&self, at: Point) -> Lobe {
         let tint = param::share(&self.tint, at);
-        let eta = at.eta.unwrap_or(self.eta);
-        match self.rough.at(eta, tint, at) {
-            None => Lobe::SmoothDielectric(SmoothDielectric { eta, tint }),
+        match self.rough.at(tint, at) {
+            None => Lobe::SmoothDielectric(SmoothDielectric { eta: at.eta.unwrap_or(self.eta), tint }),
             Some(lobe) => Lobe::RoughDielectric(lobe),
         }
     }
@@ -91,8 +90,8 @@ impl Reflectance {
     #[inline]
     pub(super) fn at(&self, at: Point) -> Fresnel {
         match self {
-            Self::Fixed(fresnel) => *fresnel,
-            Self::Schlick(f0) => Fresnel::schlick(param::share(f0, at), Spectrum::ONE),
+            Self::Fixed(fresnel) => fresnel.clone(),
+            Self::Schlick(f0) => Fresnel::schlick(param::share(f0, at), 1.0),
         }
     }
 }

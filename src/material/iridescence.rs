@@ -1,9 +1,10 @@
 //! KHR_materials_iridescence: where the film lies, and how thick it is.
 
 use super::param::{self, Point};
-use crate::bsdf::{FilmedDielectric, Fresnel, Lobe, Micro, RoughFilmedDielectric, ThinFilm};
+use crate::bsdf::{FilmedDielectric, FilmedEnergy, Fresnel, Ggx, Lobe, Micro, RoughFilmedDielectric, ThinFilm};
 use crate::desc::{self, ScalarParam};
 use crate::spectrum::Spectrum;
+use std::sync::Arc;
 
 /// A film at a point, and the share of the surface that it covers.
 #[derive(Clone, Copy, Debug)]
@@ -35,13 +36,23 @@ impl Covering {
         Fresnel::under_film(self.film, self.share, f0, weight)
     }
 
-    /// The interface of a volume of index `eta` ≥ 1.
+    /// The interface of a volume of index `eta` ≥ 1; `energy` is that of its film where it is rough.
     #[inline]
-    pub(super) fn interface(&self, eta: f32, tint: Spectrum, micro: Option<Micro>) -> Lobe {
+    pub(super) fn interface(&self, eta: f32, tint: Spectrum, rough: Option<(Micro, &Arc<FilmedEnergy>)>) -> Lobe {
         let facet = FilmedDielectric { eta, tint, film: self.film, share: self.share };
-        match micro {
+        match rough {
             None => Lobe::FilmedDielectric(facet),
-            Some(micro) => Lobe::RoughFilmedDielectric(RoughFilmedDielectric { ggx: *micro.surface(), facet }),
+            Some((micro, energy)) => {
+                let Ggx { ax, ay } = micro.surface();
+                Lobe::RoughFilmedDielectric(Box::new(RoughFilmedDielectric::new([ax, ay], facet, energy)))
+            }
         }
     }
+}
+
+/// Energies of the interface of a volume of index `eta` under this film, for α within these bounds.
+pub(super) fn filmed_energy(iridescence: &desc::Iridescence, eta: f32, alpha: [f32; 2]) -> FilmedEnergy {
+    let [a, b] = iridescence.thickness;
+    let thickness = if iridescence.thickness_texture.is_some() { [a.min(b), a.max(b)] } else { [b; 2] };
+    FilmedEnergy::new(eta, alpha, iridescence.ior, thickness)
 }

@@ -10,7 +10,7 @@ use super::metallic_roughness::MetallicRoughness;
 use super::param::{self, Point};
 use super::roughness::Microsurface;
 use super::tangent_space_normal;
-use crate::bsdf::{Bsdf, Coat, Fresnel, Layer, Lobe, Mirror, RoughReflection, Sheen, SheenAlbedo};
+use crate::bsdf::{Bsdf, Fresnel, Layer, Lobe, Mirror, RoughReflection, Sheen, SheenAlbedo};
 use crate::desc::{self, NormalMap, Roughness};
 use crate::math::Frame;
 use crate::shape::Surface;
@@ -27,8 +27,6 @@ pub(super) struct Layered {
     anisotropy: Option<desc::Anisotropy>,
     sheen: Option<desc::Sheen>,
     coat: Option<(desc::Clearcoat, Microsurface)>,
-    /// All lobes with their layers, where they are the same everywhere.
-    fixed: Option<Box<Bsdf>>,
 }
 
 /// Where a layered material is evaluated, beside its parameters.
@@ -46,17 +44,14 @@ impl Layered {
         let coat = layers.clearcoat.map(|coat| (coat, Microsurface::new(Roughness::Perceptual(coat.roughness))));
         let base = MetallicRoughness::new(desc);
         let anisotropy = layers.anisotropy.filter(|a| a.strength.factor > 0.0);
-        let mut layered = Self { base, anisotropy, sheen: layers.sheen, coat, fixed: None };
-        if layered.is_constant() {
-            let mut bsdf = Bsdf::new();
-            param::nowhere(|at| layered.stack(at, None, Vec3::Z, &mut bsdf));
-            layered.fixed = Some(Box::new(bsdf));
+        if layers.sheen.is_some() {
+            SheenAlbedo::prepare();
         }
-        layered
+        Self { base, anisotropy, sheen: layers.sheen, coat }
     }
 
     /// The same everywhere, but for a coat that does not follow the normal of the base.
-    fn is_constant(&self) -> bool {
+    pub(super) fn is_constant(&self) -> bool {
         let untextured = |p: &desc::ScalarParam| p.texture.is_none();
         self.base.is_constant()
             && self.anisotropy.is_none_or(|a| a.direction.is_none())
@@ -66,48 +61,49 @@ impl Layered {
             })
     }
 
-    /// Adds the lobes and layers, `scale` times, seen along `wo`.
-    pub(super) fn put(&self, at: Point, lie: Lie, scale: f32, wo: Vec3, bsdf: &mut Bsdf) {
+    /// Adds the lobes and layers, `scale` times.
+    pub(super) fn put(&self, at: Point, lie: Lie, scale: f32, bsdf: &mut Bsdf) {
         let tilt = self.coat.as_ref().and_then(|(coat, _)| tilt(coat, lie, at));
-        match &self.fixed {
-            Some(fixed) if tilt.is_none() => bsdf.add(fixed, scale, wo),
-            _ => {
-                let mut own = Bsdf::new();
-                self.stack(at, tilt, wo, &mut own);
-                bsdf.add(&own, scale, wo);
-            }
+        if bsdf.is_empty() && scale == 1.0 {
+            self.stack(at, tilt, bsdf);
+        } else {
+            let mut own = Bsdf::new();
+            self.stack(at, tilt, &mut own);
+            bsdf.add(&own, scale);
         }
     }
 
+    /// Base, sheen, coat, where the normal of the coat is that of the base.
+    pub(super) fn fixed(&self, at: Point, bsdf: &mut Bsdf) {
+        self.stack(at, None, bsdf);
+    }
+
     /// Base, sheen, coat; the coat with its normal where that is not the normal of the base.
-    fn stack(&self, at: Point, tilt: Option<Vec3>, wo: Vec3, bsdf: &mut Bsdf) {
+    fn stack(&self, at: Point, tilt: Option<Vec3>, bsdf: &mut Bsdf) {
         let turned = self.anisotropy.map(|a| direction(&a, at));
         self.base.lobes(at, |lobe, scale| {
-            bsdf.push_by_albedo_in(turned, lobe, scale, wo);
+            bsdf.push_in(turned.as_ref(), lobe, scale);
         });
 
         if let Some(sheen) = &self.sheen {
             let color = param::share(&sheen.color, at);
             if !color.is_black() {
                 let albedo = SheenAlbedo::new(param::scalar(&sheen.roughness, at));
-                bsdf.cover(0, Layer::sheen(color.max_element(), albedo), wo);
-                bsdf.push_by_albedo(Lobe::Sheen(Sheen::new(color, albedo)), 1.0, wo);
+                bsdf.cover(0, Layer::sheen(color.max_element(), albedo));
+                bsdf.push(Lobe::Sheen(Sheen::new(color, albedo)), 1.0);
             }
         }
 
         if let Some((coat, micro)) = &self.coat {
             let factor = param::scalar(&coat.factor, at);
             if factor > 0.0 {
-                let fresnel = Fresnel::schlick(Spectrum::splat(COAT_F0), Spectrum::ONE);
-                let (lobe, albedo) = match micro.at(at) {
-                    None => (Lobe::Mirror(Mirror { fresnel }), Coat::smooth(COAT_F0)),
-                    Some(micro) => {
-                        let lobe = RoughReflection::new(micro, fresnel);
-                        (Lobe::RoughReflection(lobe), lobe.coat())
-                    }
+                let (fresnel, micro) = (Fresnel::schlick(Spectrum::splat(COAT_F0), 1.0), micro.at(at));
+                bsdf.cover(0, Layer::coat(factor, COAT_F0, micro.map(|m| *m.energy()), tilt));
+                let lobe = match micro {
+                    None => Lobe::Mirror(Mirror { fresnel }),
+                    Some(micro) => Lobe::RoughReflection(RoughReflection::new(micro, fresnel)),
                 };
-                bsdf.cover(0, Layer::coat(factor, albedo, tilt), wo);
-                bsdf.push_by_albedo_in(tilt.map(Frame::from_z), lobe, factor, wo);
+                bsdf.push_in(tilt.map(Frame::from_z).as_ref(), lobe, factor);
             }
         }
     }

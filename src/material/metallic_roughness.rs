@@ -16,15 +16,16 @@
 //! the film does.
 
 use super::classic::Dielectric;
-use super::iridescence::Covering;
+use super::iridescence::{Covering, filmed_energy};
 use super::param::{self, Point};
-use super::roughness::Microsurface;
+use super::roughness::{Microsurface, alpha_bounds};
 use crate::bsdf::{
-    Coat, CoupledDiffuse, DiffuseTransmission, Fresnel, Lobe, Mirror, RoughReflection, RoughThin, ThinTransmission,
+    Coat, CoupledDiffuse, FilmedEnergy, Fresnel, Lobe, Mirror, RoughReflection, RoughThin, ThinTransmission,
     multiple_scattering,
 };
 use crate::desc;
 use crate::spectrum::Spectrum;
+use std::sync::Arc;
 
 /// The model, with what is resolved ahead of hits.
 #[derive(Clone, Debug)]
@@ -35,6 +36,8 @@ pub(super) struct MetallicRoughness {
     f0: f32,
     /// The interface of a volume.
     interface: Option<Dielectric>,
+    /// Its energies under a film, where it is rough somewhere.
+    filmed: Option<Arc<FilmedEnergy>>,
 }
 
 impl MetallicRoughness {
@@ -51,7 +54,11 @@ impl MetallicRoughness {
         if desc.iridescence.is_some() {
             micro.prepare_series();
         }
-        Self { desc: desc.clone(), micro, f0, interface }
+        let filmed = desc.iridescence.as_ref().filter(|_| interface.is_some() && n >= 1.0).and_then(|film| {
+            let bounds = alpha_bounds(&roughness)?;
+            Some(Arc::new(filmed_energy(film, n, bounds)))
+        });
+        Self { desc: desc.clone(), micro, f0, interface, filmed }
     }
 
     pub(super) fn is_constant(&self) -> bool {
@@ -80,7 +87,6 @@ impl MetallicRoughness {
         let f0_full = at.eta.map_or(self.f0, normal_reflectance);
         let f0_full = (param::color(&d.specular_color, at) * f0_full).min(Spectrum::ONE);
         let f0 = f0_full * specular;
-        let f90 = Spectrum::splat(specular);
         let micro = self.micro.at(at);
         let film = Covering::at(d.iridescence.as_ref(), at);
 
@@ -88,7 +94,9 @@ impl MetallicRoughness {
         let dielectric = match &self.interface {
             Some(interface) => {
                 let lobe = match &film {
-                    Some(film) if d.ior >= 1.0 => film.interface(at.eta.unwrap_or(d.ior), base, micro),
+                    Some(film) if d.ior >= 1.0 => {
+                        film.interface(at.eta.unwrap_or(d.ior), base, micro.zip(self.filmed.as_ref()))
+                    }
                     _ => interface.lobe(at),
                 };
                 push(lobe, (1.0 - metallic) * transmission);
@@ -99,10 +107,10 @@ impl MetallicRoughness {
         let (through, beneath) = if self.interface.is_some() { (0.0, 1.0) } else { (transmission, 1.0 - transmission) };
 
         // Fresnel terms and multiple scattering of the mixture are the mixtures of theirs: both are linear in f.
-        let loss = micro.map_or(0.0, |m| m.energy().mean.loss);
-        let f_ms = |f: Fresnel| multiple_scattering(f.average(), loss);
+        let loss = micro.map_or(0.0, |m| m.energy().mean_loss());
+        let f_ms = |f: &Fresnel| multiple_scattering(f.average(), loss);
         let (coat, metal) = match &film {
-            None => (Fresnel::schlick(f0, f90), Fresnel::schlick(base, Spectrum::ONE)),
+            None => (Fresnel::schlick(f0, specular), Fresnel::schlick(base, 1.0)),
             // What is not there is not summed.
             Some(film) => {
                 let there = |share: f32| f32::from(share > 0.0);
@@ -110,7 +118,7 @@ impl MetallicRoughness {
             }
         };
         let mixed = coat.mixed(dielectric, &metal, metallic);
-        let mixed_f_ms = f_ms(coat) * dielectric + f_ms(metal) * metallic;
+        let mixed_f_ms = f_ms(&coat) * dielectric + f_ms(&metal) * metallic;
         match micro {
             _ if dielectric * specular + metallic == 0.0 => (),
             None => push(Lobe::Mirror(Mirror { fresnel: mixed }), 1.0),
@@ -118,10 +126,10 @@ impl MetallicRoughness {
         }
 
         if dielectric * beneath > 0.0 {
-            let under = Coat { f0, f90, f_ms: f_ms(coat), energy: micro.map(|m| *m.energy()) };
+            let under = Coat { f0, f90: specular, energy: micro.map(|m| *m.energy()) };
             let coupled = |color| match film {
                 None => CoupledDiffuse::new(color, under),
-                Some(_) => CoupledDiffuse::under(color, under, coat),
+                Some(_) => CoupledDiffuse::under(color, under, &coat),
             };
             let mut reflects = 1.0;
             if let Some(t) = &d.diffuse_transmission {
@@ -130,8 +138,8 @@ impl MetallicRoughness {
                 if share > 0.0 && !color.is_black() {
                     // Beside a refracting interface the radiance behind is that of its index.
                     let eta = if self.interface.is_some() { at.eta.unwrap_or(d.ior) } else { 1.0 };
-                    let lobe = DiffuseTransmission { base: coupled(color), eta };
-                    push(Lobe::DiffuseTransmission(lobe), dielectric * beneath * share);
+                    let lobe = Lobe::DiffuseTransmission { base: coupled(color), eta };
+                    push(lobe, dielectric * beneath * share);
                 }
             }
             if reflects > 0.0 && !base.is_black() {
@@ -141,7 +149,7 @@ impl MetallicRoughness {
         if dielectric * through > 0.0 && !base.is_black() {
             let lobe = match micro {
                 None => Lobe::ThinTransmission(ThinTransmission { fresnel: coat, tint: base }),
-                Some(micro) => Lobe::RoughThin(RoughThin::new(RoughReflection::new(micro, coat), base)),
+                Some(micro) => Lobe::RoughThin(RoughThin::new(micro, coat, base)),
             };
             push(lobe, dielectric * through);
         }

@@ -15,7 +15,7 @@ pub mod param;
 mod roughness;
 mod specular_glossiness;
 
-use crate::bsdf::{Bsdf, Lobe};
+use crate::bsdf::{Bsdf, BsdfAt, Lobe, Scratch};
 use crate::desc::{self, Alpha, ColorParam, Emission, NormalMap, ScalarParam};
 use crate::math::Frame;
 use crate::shape::Surface;
@@ -46,16 +46,16 @@ pub struct Material {
 enum Scattering {
     /// Nothing.
     Absorb,
-    /// One lobe, the same everywhere: the common case, without any work at a hit.
-    Single(Box<Bsdf>),
+    /// The same everywhere: without any work at a hit, and never copied.
+    Fixed(Box<Bsdf>),
     /// f = Σ weight · f_part.
     Sum(Vec<(f32, Part)>),
 }
 
 #[derive(Clone, Debug)]
 enum Part {
-    /// The same everywhere: lobes with their factors.
-    Fixed(Vec<(Lobe, f32)>),
+    /// The same everywhere: lobes with their layers.
+    Fixed(Box<Bsdf>),
     Diffuse(ColorParam),
     Mirror(ColorParam),
     Dielectric(Dielectric),
@@ -69,15 +69,16 @@ enum Part {
 }
 
 impl Part {
-    fn is_constant(&self) -> bool {
+    /// It is the same everywhere, on a surface that has its normals bent or not.
+    fn is_constant(&self, bent: bool) -> bool {
         match self {
             Self::Fixed(_) => true,
             Self::Diffuse(c) | Self::Mirror(c) => param::is_constant(c),
             Self::Dielectric(d) => d.is_constant(),
             Self::Conductor(c) => c.is_constant(),
             Self::MetallicRoughness(m) => m.is_constant(),
-            // It keeps what is constant itself, with its layers.
-            Self::Layered(_) => false,
+            // A coat keeps the normal of the shape.
+            Self::Layered(m) => m.is_constant() && !bent,
             Self::RoughDiffuse(c, r) => param::is_constant(c) && r.texture.is_none(),
             Self::Phong(c, _) => param::is_constant(c),
             Self::CookTorrance(c) => c.is_constant(),
@@ -85,49 +86,72 @@ impl Part {
         }
     }
 
+    /// Hands the lobes and their factors to `push`, of a model without layers.
+    #[inline]
     fn lobes(&self, at: Point, mut push: impl FnMut(Lobe, f32)) {
         match self {
-            Self::Fixed(lobes) => lobes.iter().for_each(|&(lobe, scale)| push(lobe, scale)),
             Self::Diffuse(reflectance) => push(Lobe::lambert(param::share(reflectance, at)), 1.0),
             Self::Mirror(reflectance) => push(classic::mirror(param::share(reflectance, at)), 1.0),
             Self::Dielectric(d) => push(d.lobe(at), 1.0),
             Self::Conductor(c) => push(c.lobe(at), 1.0),
             Self::MetallicRoughness(m) => m.lobes(at, push),
-            // Its lobes are nothing without their layers: `put` adds both.
-            Self::Layered(_) => {}
             Self::RoughDiffuse(c, r) => push(classic::diffuse(param::share(c, at), param::scalar(r, at)), 1.0),
             Self::Phong(c, exponent) => push(classic::phong(param::share(c, at), *exponent), 1.0),
             Self::CookTorrance(c) => push(c.lobe(at), 1.0),
             Self::SpecularGlossiness(m) => m.lobes(at, push),
+            Self::Fixed(_) | Self::Layered(_) => {}
+        }
+    }
+
+    /// Adds what scatters at a hit, `weight` times.
+    #[inline]
+    fn put(&self, at: Point, lie: Lie, weight: f32, bsdf: &mut Bsdf) {
+        match self {
+            Self::Fixed(fixed) => {
+                bsdf.add(fixed, weight);
+            }
+            Self::Layered(layered) => layered.put(at, lie, weight, bsdf),
+            _ => self.lobes(at, |lobe, scale| {
+                bsdf.push(lobe, weight * scale);
+            }),
         }
     }
 
     /// What does not vary, made into lobes.
-    fn fixed(self) -> Self {
-        if !self.is_constant() {
+    fn fixed(self, bent: bool) -> Self {
+        if !self.is_constant(bent) {
             return self;
         }
-        let mut lobes = Vec::new();
-        param::nowhere(|at| self.lobes(at, |lobe, scale| lobes.push((lobe, scale))));
-        Self::Fixed(lobes)
+        let mut bsdf = Bsdf::new();
+        param::nowhere(|at| match &self {
+            Self::Layered(layered) => layered.fixed(at, &mut bsdf),
+            _ => self.lobes(at, |lobe, scale| {
+                bsdf.push(lobe, scale);
+            }),
+        });
+        Self::Fixed(Box::new(bsdf))
     }
 }
 
 impl Material {
-    /// Resolves tables and constants. A mixture keeps its [`crate::bsdf::MAX_LOBES`] weightiest lobes.
+    /// Resolves tables and constants. Its lobes find room where [`most_lobes`] says so.
     pub fn compile(m: &desc::Material) -> Self {
         let mut parts = Vec::new();
         flatten(&m.model, 1.0, &mut parts);
         parts.sort_by(|a, b| b.0.total_cmp(&a.0));
         let between = interior(m).map(|_| Scattering::Sum(parts.clone()));
+        let bent = m.normal_map.is_some();
         for (_, part) in &mut parts {
-            *part = std::mem::replace(part, Part::Fixed(Vec::new())).fixed();
+            *part = std::mem::replace(part, Part::Fixed(Box::default())).fixed(bent);
         }
+        let mut fixed = Bsdf::new();
+        let all = parts.iter().all(|(weight, part)| match part {
+            Part::Fixed(lobes) => fixed.add(lobes, *weight),
+            _ => false,
+        });
         let scattering = match parts.as_slice() {
             [] => Scattering::Absorb,
-            [(1.0, Part::Fixed(lobes))] if matches!(lobes.as_slice(), [(_, 1.0)]) => {
-                Scattering::Single(Box::new(Bsdf::single(lobes[0].0)))
-            }
+            _ if all => Scattering::Fixed(Box::new(fixed)),
             _ => Scattering::Sum(parts),
         };
         Self {
@@ -140,14 +164,14 @@ impl Material {
         }
     }
 
-    /// Lobes at a hit: the material's own, or those that vary over the surface, put into `scratch`. `wo`, in the local
-    /// shading frame, decides how often each is chosen, and nothing else.
+    /// What scatters at a hit, seen from `wo` in the local shading frame.
     #[inline]
-    pub fn bsdf<'a>(&'a self, s: &Surface, wo: Vec3, textures: &Textures, scratch: &'a mut Bsdf) -> &'a Bsdf {
+    pub fn bsdf<'a>(&'a self, s: &Surface, wo: Vec3, textures: &Textures, scratch: &'a mut Scratch) -> BsdfAt<'a> {
         self.bsdf_between(s, wo, textures, None, scratch)
     }
 
-    /// The same where the index of what the surface encloses over what is before it is `eta`, not the material's own.
+    /// What scatters at a hit, seen from `wo`, where the index of what the surface encloses over what is before it is `eta`,
+    /// not the material's own.
     #[inline]
     pub fn bsdf_between<'a>(
         &'a self,
@@ -155,21 +179,28 @@ impl Material {
         wo: Vec3,
         textures: &Textures,
         eta: Option<f32>,
-        scratch: &'a mut Bsdf,
-    ) -> &'a Bsdf {
+        scratch: &'a mut Scratch,
+    ) -> BsdfAt<'a> {
+        let Scratch { bsdf, toward } = scratch;
+        self.lobes(s, textures, eta, bsdf).towards(wo, toward)
+    }
+
+    /// Lobes at a hit, bound to no direction: the material's own, or those that vary over the surface, put into `scratch`.
+    #[inline]
+    pub fn lobes<'a>(&'a self, s: &Surface, textures: &Textures, eta: Option<f32>, scratch: &'a mut Bsdf) -> &'a Bsdf {
         let scattering = match (&self.between, eta) {
             (Some(between), Some(_)) => between,
             _ => &self.scattering,
         };
         match scattering {
-            Scattering::Single(bsdf) => bsdf,
+            Scattering::Fixed(bsdf) => bsdf,
             Scattering::Absorb => {
                 scratch.clear();
                 scratch
             }
             Scattering::Sum(parts) => {
                 let at = Point { uv: &s.uv, color: s.color, textures, eta };
-                sum(parts, at, Lie { surface: s, normal_map: self.normal_map.as_ref() }, wo, scratch)
+                sum(parts, at, Lie { surface: s, normal_map: self.normal_map.as_ref() }, scratch)
             }
         }
     }
@@ -197,12 +228,12 @@ impl Material {
     /// It looks at texture coordinates, tangents or vertex colours: something varies over the surface, or has a direction.
     pub fn is_charted(&self) -> bool {
         let part = |part: &Part| match part {
-            Part::Fixed(lobes) => lobes.iter().any(|(lobe, _)| lobe.is_anisotropic()),
+            Part::Fixed(lobes) => lobes.is_anisotropic(),
             _ => true,
         };
         let scatters = match &self.scattering {
             Scattering::Absorb => false,
-            Scattering::Single(bsdf) => bsdf.is_anisotropic(),
+            Scattering::Fixed(bsdf) => bsdf.is_anisotropic(),
             Scattering::Sum(parts) => parts.iter().any(|(_, p)| part(p)),
         };
         let emits = self
@@ -246,32 +277,30 @@ fn tangent_space_normal(map: &NormalMap, s: &Surface, textures: &Textures) -> Op
 }
 
 #[inline(never)]
-fn sum<'a>(parts: &[(f32, Part)], at: Point, lie: Lie, wo: Vec3, scratch: &'a mut Bsdf) -> &'a Bsdf {
+fn sum<'a>(parts: &[(f32, Part)], at: Point, lie: Lie, scratch: &'a mut Bsdf) -> &'a Bsdf {
     scratch.clear();
     for (weight, part) in parts {
-        if let Part::Layered(layered) = part {
-            layered.put(at, lie, *weight, wo, scratch);
-            continue;
-        }
-        part.lobes(at, |lobe, scale| {
-            scratch.push_by_albedo(lobe, weight * scale, wo);
-        });
+        part.put(at, lie, *weight, scratch);
     }
     scratch
 }
 
-/// Most lobes that a model makes at a hit; above [`crate::bsdf::MAX_LOBES`], the least weighty are lost.
-pub fn most_lobes(model: &desc::Model) -> usize {
+/// Most lobes and layers that a model makes at a hit. A scene whose materials make more than [`crate::bsdf::MAX_LOBES`] or
+/// [`crate::bsdf::MAX_LAYERS`] does not compile.
+pub fn most_lobes(model: &desc::Model) -> [usize; 2] {
     match model {
-        desc::Model::Absorb => 0,
-        desc::Model::Mix(parts) => parts.iter().map(|(_, model)| most_lobes(model)).sum(),
+        desc::Model::Absorb => [0; 2],
+        desc::Model::Mix(parts) => parts.iter().filter(|(weight, _)| *weight > 0.0).fold([0; 2], |sum, (_, model)| {
+            let part = most_lobes(model);
+            [0, 1].map(|k| sum[k].saturating_add(part[k]))
+        }),
         desc::Model::MetallicRoughness(m) => {
-            let layers = [m.layers.sheen.is_some(), m.layers.clearcoat.is_some()];
-            let through = [m.transmission.is_some(), m.diffuse_transmission.is_some()];
-            2 + layers.into_iter().chain(through).map(usize::from).sum::<usize>()
+            let count = |all: [bool; 2]| all.into_iter().map(usize::from).sum::<usize>();
+            let layers = count([m.layers.sheen.is_some(), m.layers.clearcoat.is_some()]);
+            [2 + layers + count([m.transmission.is_some(), m.diffuse_transmission.is_some()]), layers]
         }
-        desc::Model::SpecularGlossiness(_) => 2,
-        _ => 1,
+        desc::Model::SpecularGlossiness(_) => [2, 0],
+        _ => [1, 0],
     }
 }
 

@@ -1,7 +1,7 @@
 //! Roughness over the surface, with the energy tables that it needs resolved ahead of hits.
 
 use super::param::{self, Point};
-use crate::bsdf::{Atlas, DielectricTables, EnergyTable, Interface, MIN_ALPHA, Micro, RoughDielectric};
+use crate::bsdf::{DielectricPair, EnergyTable, Ggx, Interface, MIN_ALPHA, Micro, RoughDielectric};
 use crate::desc::Roughness;
 use crate::spectrum::Spectrum;
 
@@ -46,6 +46,16 @@ pub(super) fn fixed(roughness: &Roughness) -> Option<Fixed> {
     }
 }
 
+/// The least and the greatest α of one roughness over a surface that is not smooth everywhere.
+pub(super) fn alpha_bounds(roughness: &Roughness) -> Option<[f32; 2]> {
+    match (fixed(roughness), roughness) {
+        (Some(Fixed::Smooth), _) => None,
+        (Some(Fixed::Rough([a, _])), _) => Some([a.clamp(MIN_ALPHA, 1.0); 2]),
+        (None, Roughness::Perceptual(r)) => Some([MIN_ALPHA, (r.factor * r.factor).clamp(MIN_ALPHA, 1.0)]),
+        (None, _) => Some([MIN_ALPHA, 1.0]),
+    }
+}
+
 /// The microsurface of a reflecting material.
 #[derive(Clone, Debug)]
 pub(super) enum Microsurface {
@@ -53,29 +63,26 @@ pub(super) enum Microsurface {
     Smooth,
     /// The same everywhere.
     Fixed(Micro),
-    /// Of a texture.
+    /// Of a texture, with the table of all roughnesses or, where there are two, of all pairs.
     Varying(Roughness, &'static EnergyTable),
-    /// The same with two roughnesses.
-    Stretched(Roughness, &'static Atlas, &'static EnergyTable),
 }
 
 impl Microsurface {
     pub(super) fn new(roughness: Roughness) -> Self {
-        let isotropic = || EnergyTable::isotropic(Interface::Mirror);
         match (fixed(&roughness), &roughness) {
             (Some(Fixed::Smooth), _) => Self::Smooth,
-            // One atlas serves all materials; a table each would take a third of a second each.
+            // One table serves all materials; one for each would take a third of a second.
             (Some(Fixed::Rough([a, b])), Roughness::Stretched { .. }) if a != b => {
-                Self::Fixed(Micro::varying([a, b], Atlas::get(), isotropic()))
+                Self::Fixed(Micro::of([a, b], EnergyTable::every_pair()))
             }
-            (None, Roughness::Stretched { .. }) => Self::Stretched(roughness, Atlas::get(), isotropic()),
+            (None, Roughness::Stretched { .. }) => Self::Varying(roughness, EnergyTable::every_pair()),
             (Some(Fixed::Rough(alpha)), _) => Self::Fixed(Micro::new(alpha)),
-            (None, _) => Self::Varying(roughness, isotropic()),
+            (None, _) => Self::Varying(roughness, EnergyTable::isotropic(Interface::Mirror)),
         }
     }
 
     pub(super) fn is_constant(&self) -> bool {
-        !matches!(self, Self::Varying(..) | Self::Stretched(..))
+        !matches!(self, Self::Varying(..))
     }
 
     /// Makes the tables for reflectances that are not Schlick's.
@@ -83,7 +90,7 @@ impl Microsurface {
         match self {
             Self::Smooth => {}
             Self::Fixed(micro) => micro.energy().prepare_series(),
-            Self::Varying(_, table) | Self::Stretched(_, _, table) => table.prepare_series(),
+            Self::Varying(_, table) => table.prepare_series(),
         }
     }
 
@@ -93,10 +100,7 @@ impl Microsurface {
         match self {
             Self::Smooth => None,
             Self::Fixed(micro) => Some(*micro),
-            Self::Varying(roughness, table) => alpha(roughness, at).map(|[a, _]| Micro::isotropic(a, table)),
-            Self::Stretched(roughness, atlas, table) => {
-                alpha(roughness, at).map(|alpha| Micro::varying(alpha, atlas, table))
-            }
+            Self::Varying(roughness, table) => alpha(roughness, at).map(|alpha| Micro::of(alpha, table)),
         }
     }
 }
@@ -104,64 +108,58 @@ impl Microsurface {
 /// The microsurface of a dielectric interface.
 #[derive(Clone, Debug)]
 pub(super) struct RoughInterface {
+    eta: f32,
     roughness: Roughness,
     own: Own,
 }
 
-/// The lobe of the material's own index.
+/// How rough it is.
 #[derive(Clone, Debug)]
 enum Own {
-    /// None anywhere.
+    /// Smooth.
     Smooth,
-    /// The same everywhere.
-    Fixed(Box<RoughDielectric>),
-    /// Of a texture.
-    Varying(DielectricTables),
+    /// As rough everywhere, and as much along x as along y.
+    Fixed(f32),
+    /// Rougher along one direction: tables of this microsurface at the material's own index.
+    Pair(&'static DielectricPair),
+    /// Of a texture. Where two roughnesses vary, their geometric mean: there are no tables for all pairs and indices.
+    Varying,
 }
 
 impl RoughInterface {
     pub(super) fn new(eta: f32, roughness: Roughness) -> Self {
         let own = match fixed(&roughness) {
-            _ if is_no_interface(eta) => Own::Smooth,
             Some(Fixed::Smooth) => Own::Smooth,
-            Some(Fixed::Rough(alpha)) => Own::Fixed(Box::new(RoughDielectric::new(alpha, eta, Spectrum::ONE))),
-            None => Own::Varying(DielectricTables::new(eta)),
+            Some(Fixed::Rough([a, b])) if a == b => Own::Fixed(a),
+            // In a medium of its own index it is none, and elsewhere one whose tables are near.
+            Some(Fixed::Rough(alpha)) => {
+                let [ax, ay] = alpha.map(|a| a.clamp(MIN_ALPHA, 1.0));
+                Own::Pair(DielectricPair::new(Ggx { ax, ay }, eta))
+            }
+            None => Own::Varying,
         };
-        Self { roughness, own }
+        Self { eta, roughness, own }
     }
 
     pub(super) fn is_constant(&self) -> bool {
-        !matches!(self.own, Own::Varying(..))
+        !matches!(self.own, Own::Varying)
     }
 
     /// `None` where the surface is smooth.
     #[inline]
-    pub(super) fn at(&self, eta: f32, tint: Spectrum, at: Point) -> Option<RoughDielectric> {
-        if at.eta.is_some() {
-            return self.between(eta, tint, at);
-        }
-        match &self.own {
-            Own::Smooth => None,
-            Own::Fixed(lobe) => Some(lobe.with_tint(tint)),
-            Own::Varying(tables) => {
-                // Where two roughnesses vary, their geometric mean: there are no tables for pairs and indices.
-                alpha(&self.roughness, at).map(|[a, b]| RoughDielectric::isotropic((a * b).sqrt(), eta, tint, tables))
-            }
-        }
-    }
-
-    /// The lobe of another index: its tables are looked up, and computed the first time.
-    #[inline(never)]
-    fn between(&self, eta: f32, tint: Spectrum, at: Point) -> Option<RoughDielectric> {
+    pub(super) fn at(&self, tint: Spectrum, at: Point) -> Option<RoughDielectric> {
+        let eta = at.eta.unwrap_or(self.eta);
         if is_no_interface(eta) {
             return None;
         }
-        let [a, b] = alpha(&self.roughness, at)?;
-        Some(match fixed(&self.roughness) {
-            Some(_) => RoughDielectric::new([a, b], eta, tint),
-            // What is kept for every roughness that is asked for would pile up.
-            None => RoughDielectric::isotropic((a * b).sqrt(), eta, tint, &DielectricTables::new(eta)),
-        })
+        match &self.own {
+            Own::Smooth => None,
+            Own::Fixed(alpha) => Some(RoughDielectric::isotropic(*alpha, eta, tint)),
+            Own::Pair(tables) => Some(RoughDielectric::between(tables, eta, tint)),
+            Own::Varying => {
+                alpha(&self.roughness, at).map(|[a, b]| RoughDielectric::isotropic((a * b).sqrt(), eta, tint))
+            }
+        }
     }
 }
 

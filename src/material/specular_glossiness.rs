@@ -5,9 +5,8 @@
 
 use super::param::{self, Point};
 use super::roughness::Microsurface;
-use crate::bsdf::{Coat, CoupledDiffuse, Fresnel, Lobe, Mirror, RoughReflection, multiple_scattering};
+use crate::bsdf::{Coat, CoupledDiffuse, Fresnel, Lobe, Mirror, RoughReflection};
 use crate::desc;
-use crate::spectrum::Spectrum;
 
 /// The model, with what is resolved ahead of hits.
 #[derive(Clone, Debug)]
@@ -28,15 +27,14 @@ impl SpecularGlossiness {
     /// Hands the lobes and their factors to `push`.
     pub(super) fn lobes(&self, at: Point, mut push: impl FnMut(Lobe, f32)) {
         let base = param::share(&self.desc.diffuse, at);
-        let (f0, f90) = (param::share(&self.desc.specular, at), Spectrum::ONE);
-        let (fresnel, micro) = (Fresnel::schlick(f0, f90), self.micro.at(at));
-        let f_ms = multiple_scattering(fresnel.average(), micro.map_or(0.0, |m| m.energy().mean.loss));
+        let f0 = param::share(&self.desc.specular, at);
+        let (fresnel, micro) = (Fresnel::schlick(f0, 1.0), self.micro.at(at));
         match micro {
             None => push(Lobe::Mirror(Mirror { fresnel }), 1.0),
-            Some(micro) => push(Lobe::RoughReflection(RoughReflection::with(micro, fresnel, f_ms)), 1.0),
+            Some(micro) => push(Lobe::RoughReflection(RoughReflection::new(micro, fresnel)), 1.0),
         }
         if !base.is_black() {
-            let coat = Coat { f0, f90, f_ms, energy: micro.map(|m| *m.energy()) };
+            let coat = Coat { f0, f90: 1.0, energy: micro.map(|m| *m.energy()) };
             push(Lobe::CoupledDiffuse(CoupledDiffuse::new(base, coat)), 1.0);
         }
     }

@@ -88,7 +88,7 @@ impl Shading<'_> {
         let mut sum = CosineEval::default();
         for (w, share) in self.origins(wi) {
             if share > 0.0 && w.z != 0.0 {
-                sum.add(self.bsdf.eval(self.wo, w, Transport::Radiance), w.z.abs(), share);
+                sum.add(self.bsdf.eval(w, Transport::Radiance), w.z.abs(), share);
             }
         }
         sum
@@ -104,8 +104,8 @@ impl Shading<'_> {
             if share > 0.0 && w.z != 0.0 {
                 // Of what f sends from ô to w, importance goes the other way.
                 let k = w.z.abs() * cos.abs() / arriving;
-                let eval = self.bsdf.eval(w, seen, Transport::Importance);
-                let pdf = self.bsdf.eval(seen, w, Transport::Radiance).pdf;
+                let eval = self.bsdf.bsdf().eval(w, seen, Transport::Importance);
+                let pdf = self.bsdf.bsdf().eval(seen, w, Transport::Radiance).pdf;
                 sum.add(Eval { pdf, ..eval }, k, share);
             }
         }
@@ -118,7 +118,7 @@ impl Shading<'_> {
         let w = self.frame.to_world(draw.wi);
         let p = direct(w.dot(self.vertex.surface.ng), draw.wi.z);
         if self.is_straight(draw) {
-            let straight = self.bsdf.straight(self.wo).is_some();
+            let straight = self.bsdf.bsdf().straight(self.wo).is_some();
             ways.push(DirectionSample::new(-self.vertex.wo, draw, draw.pdf, straight));
             return ways;
         }
@@ -138,7 +138,7 @@ impl Shading<'_> {
     pub(super) fn leave_bent(&self, draw: &Sample) -> Option<DirectionSample> {
         let ng = self.vertex.surface.ng;
         if self.is_straight(draw) {
-            let straight = self.bsdf.straight(self.wo).is_some();
+            let straight = self.bsdf.bsdf().straight(self.wo).is_some();
             return Some(DirectionSample::new(-self.vertex.wo, draw, draw.pdf, straight));
         }
         let w = self.frame.to_world(draw.wi);

@@ -4,10 +4,11 @@ use super::geometry::{Geometry, Owner, Part, corners};
 use super::instance::{Instance, Prototype, map_error};
 use super::object::{Departure, Object};
 use super::{Info, Media, Scene};
+use crate::bsdf::{MAX_LAYERS, MAX_LOBES};
 use crate::bvh::{Passages, Quality, TriangleBvh};
 use crate::desc::{self, Error, Mesh, Shape};
 use crate::light::{Emitter, Environment, Light, Lights, QuadricLight, TriangleLight};
-use crate::material::{self, Material};
+use crate::material::{self, Material, most_lobes};
 use crate::math::Transform;
 use crate::shape::{PlacedQuadric, Primitive, Quadric};
 use crate::texture::Textures;
@@ -26,17 +27,19 @@ impl Scene {
     /// Builds what is traced.
     ///
     /// # Errors
-    /// Where an object's transform is singular or not affine, and where instances of emissive meshes are too many lights.
+    /// Where an object's transform is singular or not affine, its material a mixture of too much, and where instances of
+    /// emissive meshes are too many lights.
     pub fn compile(desc: &desc::Scene) -> Result<Self, Error> {
         Self::compile_with(desc, Quality::default())
     }
 
-    /// Builds what is traced, with hierarchies of the given quality.
+    /// The same with hierarchies of another quality.
     ///
     /// # Errors
     /// As [`compile`](Self::compile).
     pub fn compile_with(desc: &desc::Scene, quality: Quality) -> Result<Self, Error> {
         desc::emitters::check(desc)?;
+        check_materials(desc)?;
         let textures = Textures::new(desc);
         let mut builder = Builder::new(desc, quality);
         for object in &desc.objects {
@@ -94,6 +97,25 @@ impl Scene {
             info,
         })
     }
+}
+
+/// Every material that is used finds room for its lobes at a hit.
+fn check_materials(desc: &desc::Scene) -> Result<(), Error> {
+    let mut used = vec![false; desc.materials.len()];
+    desc.objects.iter().for_each(|object| used[object.material] = true);
+    for (material, _) in desc.materials.iter().zip(&used).filter(|(_, used)| **used) {
+        let [lobes, layers] = most_lobes(&material.model);
+        for (number, most, what) in [(lobes, MAX_LOBES, "lobes"), (layers, MAX_LAYERS, "layers")] {
+            if number > most {
+                let file = desc.source.as_deref().unwrap_or(Path::new("scene"));
+                let name = &material.name;
+                let text =
+                    format!("material `{name}` mixes up to {number} {what} at a point, of which {most} are possible");
+                return Err(Error::invalid(file, "", text));
+            }
+        }
+    }
+    Ok(())
 }
 
 /// Collects what objects turn into.

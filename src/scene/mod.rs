@@ -15,7 +15,7 @@ pub use media::{Media, MediaAbout, MediumInterface};
 pub use object::{Departure, Hit};
 pub use shading::{CosineEval, DirectionSample, Shading};
 
-use crate::bsdf::Bsdf;
+use crate::bsdf::Scratch;
 use crate::bvh::Obstacle;
 use crate::desc;
 use crate::light::{LightSample, Lights};
@@ -224,10 +224,10 @@ impl Scene {
         if !self.materials[vertex.material as usize].is_sheet() {
             return None;
         }
-        let mut scratch = Bsdf::new();
+        let mut scratch = Scratch::new();
         let interface = MediumInterface::VACUUM;
         let shading = self.shade(vertex, &interface, None, &mut scratch);
-        shading.bsdf.straight(shading.wo)
+        shading.bsdf.bsdf().straight(shading.wo)
     }
 
     /// Frame, lobes and local `wo` at a vertex between the media of `interface`, of `lane` where the path has chosen
@@ -238,7 +238,7 @@ impl Scene {
         vertex: &'a Vertex,
         interface: &'a MediumInterface,
         lane: Option<usize>,
-        scratch: &'a mut Bsdf,
+        scratch: &'a mut Scratch,
     ) -> Shading<'a> {
         let eta = self.media.eta(interface, lane);
         Shading::between(&self.materials[vertex.material as usize], vertex, &self.textures, interface, eta, scratch)

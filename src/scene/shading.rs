@@ -1,7 +1,7 @@
 //! The BSDF at a vertex, in world space.
 
 use super::{MediumInterface, Vertex};
-use crate::bsdf::{Bsdf, Eval, Pdf, Sample, Transport};
+use crate::bsdf::{BsdfAt, Eval, Pdf, Sample, Scratch, Transport};
 use crate::light::{Facing, Receiver};
 use crate::material::Material;
 use crate::math::{Frame, Ray, offset_origin, renormalize};
@@ -23,8 +23,8 @@ pub struct Shading<'a> {
     /// Towards where the ray came from, local, as the shading normal sees it: on the front of it where the ray came from
     /// the front of the surface.
     pub wo: Vec3,
-    /// The lobes, about the shading normal.
-    pub bsdf: &'a Bsdf,
+    /// What scatters about the shading normal, seen from `wo`.
+    pub bsdf: BsdfAt<'a>,
     /// n·g, the cosine of the angle between shading and geometric normal; 1 where they differ by no more than rounding.
     pub(super) cos_bend: f32,
     /// Two random numbers of this visit, to be set where the normal is bent: the angle about the geometric normal by which
@@ -63,7 +63,7 @@ pub struct DirectionSample {
 impl<'a> Shading<'a> {
     /// Evaluates the material in vacuum; lobes that vary over the surface are put into `scratch`.
     #[inline]
-    pub fn new(material: &'a Material, vertex: &'a Vertex, textures: &Textures, scratch: &'a mut Bsdf) -> Self {
+    pub fn new(material: &'a Material, vertex: &'a Vertex, textures: &Textures, scratch: &'a mut Scratch) -> Self {
         static VACUUM: MediumInterface = MediumInterface::VACUUM;
         Self::between(material, vertex, textures, &VACUUM, None, scratch)
     }
@@ -77,7 +77,7 @@ impl<'a> Shading<'a> {
         textures: &Textures,
         interface: &'a MediumInterface,
         eta: Option<f32>,
-        scratch: &'a mut Bsdf,
+        scratch: &'a mut Scratch,
     ) -> Self {
         /// 1 − cos of an angle that is rounding.
         const ROUNDING: f32 = 2e-6;
@@ -101,18 +101,18 @@ impl<'a> Shading<'a> {
         if cos * local.z <= 0.0 {
             return CosineEval::default();
         }
-        CosineEval::new(self.bsdf.eval(self.wo, local, Transport::Radiance), local.z.abs())
+        CosineEval::new(self.bsdf.eval(local, Transport::Radiance), local.z.abs())
     }
 
     /// Draws a direction: `choice` picks the lobe, `u` the direction in it.
     #[inline(always)]
     pub fn sample(&self, choice: f32, u: [f32; 2]) -> Option<DirectionSample> {
-        self.leave(self.bsdf.sample(self.wo, choice, u, Transport::Radiance)?)
+        self.leave(self.bsdf.sample(choice, u, Transport::Radiance)?)
     }
 
     /// Draws from the delta lobes alone, with the probability that [`Self::sample`] has.
     pub fn sample_delta(&self, choice: f32) -> Option<DirectionSample> {
-        self.leave(self.bsdf.sample_delta(self.wo, choice, Transport::Radiance)?)
+        self.leave(self.bsdf.sample_delta(choice, Transport::Radiance)?)
     }
 
     /// Where a draw about the shading normal leaves the surface.
@@ -123,7 +123,7 @@ impl<'a> Shading<'a> {
         if self.is_bent() && (is_delta || !self.is_unchanged(cos, draw.wi.z)) {
             return self.leave_bent(&draw);
         }
-        let straight = self.is_straight(&draw) && self.bsdf.straight(self.wo).is_some();
+        let straight = self.is_straight(&draw) && self.bsdf.bsdf().straight(self.wo).is_some();
         (cos * draw.wi.z > 0.0).then(|| DirectionSample::new(wi, &draw, draw.pdf, straight))
     }
 
@@ -137,7 +137,7 @@ impl<'a> Shading<'a> {
     /// is `Discrete(1)`.
     pub fn deltas(&self) -> ArrayVec<DirectionSample, 20> {
         let mut all = ArrayVec::new();
-        for draw in self.bsdf.deltas(self.wo, Transport::Radiance) {
+        for draw in self.bsdf.bsdf().deltas(self.wo, Transport::Radiance) {
             if self.is_bent() {
                 all.extend(self.ways_out(&draw));
             } else {
@@ -149,7 +149,7 @@ impl<'a> Shading<'a> {
 
     /// Directional albedo, reflection and transmission together.
     pub fn albedo(&self) -> Spectrum {
-        self.bsdf.albedo(self.wo)
+        self.bsdf.albedo()
     }
 
     /// Who asks for light here: the half-space above the surface on the side of `wo`, or both where something is transmitted.

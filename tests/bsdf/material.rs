@@ -65,7 +65,7 @@ fn white_gltf_neither_gains_nor_loses() {
             m.transmission = transmission.map(|(t, thin)| Transmission { factor: ScalarParam::constant(t), thin });
             let material = compile(Model::MetallicRoughness(Box::new(m)));
             for mu in [0.9, 0.3, 0.05, -0.7] {
-                let bsdf = material.bsdf(&surface(), at_cosine(mu), &Textures::default(), &mut Bsdf::new()).clone();
+                let bsdf = material.lobes(&surface(), &Textures::default(), None, &mut Bsdf::new()).clone();
                 let m = sampled_albedo(&bsdf, at_cosine(mu), 0, 256);
                 let name = format!("metallic {metallic} roughness {roughness} transmission {transmission:?} μ {mu}");
                 family.replicated(name, 1.0, &m, 5e-4);
@@ -87,10 +87,8 @@ fn no_gltf_material_gains() {
         m.transmission = Some(Transmission { factor: ScalarParam::constant(x(8)), thin: true });
         let material = compile(Model::MetallicRoughness(Box::new(m)));
         for mu in [1.0, 0.5, 0.1, 0.01] {
-            let albedo = material
-                .bsdf(&surface(), at_cosine(mu), &Textures::default(), &mut Bsdf::new())
-                .clone()
-                .albedo(at_cosine(mu));
+            let albedo =
+                material.lobes(&surface(), &Textures::default(), None, &mut Bsdf::new()).clone().albedo(at_cosine(mu));
             assert!(albedo.0.max_element() <= 1.0 + 2e-4 && albedo.0.min_element() >= 0.0, "{i} μ {mu}: {albedo:?}");
         }
     }
@@ -100,7 +98,7 @@ fn no_gltf_material_gains() {
 fn parameters_come_from_textures_and_vertices() {
     let textures = textures();
     let reflectance = ColorParam { factor: [0.5, 0.5, 0.5], texture: Some(texture(1)), vertex_color: true };
-    let bsdf = compile(Model::Diffuse { reflectance }).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
+    let bsdf = compile(Model::Diffuse { reflectance }).lobes(&surface(), &textures, None, &mut Bsdf::new()).clone();
     let albedo = bsdf.albedo(Vec3::Z).to_rgb();
     for (a, b) in albedo.into_iter().zip([0.05, 0.5, 0.3]) {
         assert!((a - b).abs() < 1e-6, "{albedo:?}");
@@ -114,7 +112,7 @@ fn parameters_come_from_textures_and_vertices() {
             Model::Dielectric { ior: 1.5, roughness: roughness(uv_set), tint: WHITE },
         ];
         for model in models {
-            let bsdf = compile(model.clone()).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
+            let bsdf = compile(model.clone()).lobes(&surface(), &textures, None, &mut Bsdf::new()).clone();
             assert_eq!(bsdf.has_smooth(), smooth, "{model:?}");
             let fixed = match model {
                 Model::Conductor { fresnel, .. } => {
@@ -125,7 +123,7 @@ fn parameters_come_from_textures_and_vertices() {
                 }
                 other => other,
             };
-            let fixed = compile(fixed).bsdf(&surface(), Vec3::Z, &textures, &mut Bsdf::new()).clone();
+            let fixed = compile(fixed).lobes(&surface(), &textures, None, &mut Bsdf::new()).clone();
             let f = |b: &radianza::bsdf::Bsdf| b.eval(at_cosine(0.7), at_cosine(0.4), Transport::Radiance).f;
             assert_eq!(f(&bsdf), f(&fixed));
         }
@@ -138,12 +136,46 @@ fn mixtures_are_sums() {
     let grey = Model::Diffuse { reflectance: ColorParam::constant([0.4; 3]) };
     let inner = Model::Mix(vec![half(grey), half(Model::Absorb)]);
     let mixed = Model::Mix(vec![half(inner), half(Model::Mirror { reflectance: WHITE })]);
-    assert_eq!(radianza::material::most_lobes(&mixed), 2);
-    let bsdf = compile(mixed).bsdf(&surface(), Vec3::Z, &Textures::default(), &mut Bsdf::new()).clone();
+    assert_eq!(radianza::material::most_lobes(&mixed), [2, 0]);
+    let bsdf = compile(mixed).lobes(&surface(), &Textures::default(), None, &mut Bsdf::new()).clone();
     assert!((bsdf.albedo(Vec3::Z).0.x - (0.25 * 0.4 + 0.5)).abs() < 1e-6);
-    assert!(
-        compile(Model::Absorb).bsdf(&surface(), Vec3::Z, &Textures::default(), &mut Bsdf::new()).clone().is_empty()
-    );
+    assert!(compile(Model::Absorb).lobes(&surface(), &Textures::default(), None, &mut Bsdf::new()).clone().is_empty());
+}
+
+/// A mixture of these parts of glTF with all that it can have.
+fn mixture_of(parts: usize) -> Model {
+    use radianza::desc::{Clearcoat, Sheen};
+    let all = ScalarParam::constant(1.0);
+    let half = ScalarParam::constant(0.5);
+    let layers = Layers {
+        sheen: Some(Sheen { color: WHITE, roughness: half }),
+        clearcoat: Some(Clearcoat { factor: half, roughness: half, normal_map: None }),
+        ..Layers::default()
+    };
+    let transmission = Some(Transmission { factor: half, thin: true });
+    let diffuse_transmission = Some(desc::DiffuseTransmission { factor: half, color: WHITE, thin: true });
+    let part = MetallicRoughness { layers, transmission, diffuse_transmission, specular: all, ..gltf(0.5, 0.5) };
+    let weight = 1.0 / parts as f32;
+    Model::Mix((0..parts).map(|_| (weight, Model::MetallicRoughness(Box::new(part.clone())))).collect())
+}
+
+/// Lobes that find no room are an error, and never lost.
+#[test]
+fn too_many_lobes_are_an_error() {
+    let scene = |parts| {
+        let materials = vec![desc::Material::new("much", mixture_of(parts))];
+        let shapes = vec![desc::Shape::Sphere { radius: 1.0 }];
+        let objects = vec![desc::Object::new(0, 0)];
+        radianza::scene::Scene::compile(&desc::Scene { materials, shapes, objects, ..Default::default() })
+    };
+    let lobes =
+        |parts| compile(mixture_of(parts)).lobes(&surface(), &Textures::default(), None, &mut Bsdf::new()).len();
+    for parts in [1, 2] {
+        assert!(scene(parts).is_ok());
+        assert_eq!([lobes(parts), 2 * parts], radianza::material::most_lobes(&mixture_of(parts)));
+    }
+    let error = scene(3).expect_err("18 lobes").to_string();
+    assert!(error.contains("`much`") && error.contains("18 lobes"), "{error}");
 }
 
 #[test]
@@ -204,19 +236,19 @@ fn layers_change_what_they_cover_and_make_no_light() {
     };
     let stretched = Anisotropy { strength: ScalarParam::constant(0.8), rotation: 0.6, direction: None };
     let (wo, wi) = (at_cosine(0.4), Vec3::new(-0.5, 0.7, 0.5).normalize());
-    let lobes = |m: &MetallicRoughness, wo: Vec3| {
+    let lobes = |m: &MetallicRoughness| {
         let model = Model::MetallicRoughness(Box::new(m.clone()));
-        compile(model).bsdf(&surface(), wo, &textures(), &mut Bsdf::new()).clone()
+        compile(model).lobes(&surface(), &textures(), None, &mut Bsdf::new()).clone()
     };
     for (metallic, roughness) in [(0.0, 0.5), (1.0, 0.3), (0.5, 0.0)] {
         let plain = gltf(metallic, roughness);
-        let before = lobes(&plain, wo).eval(wo, wi, Transport::Radiance).f;
+        let before = lobes(&plain).eval(wo, wi, Transport::Radiance).f;
         for (name, layers) in [
             ("sheen", Layers { sheen: Some(sheen), ..Layers::default() }),
             ("rough coat", Layers { clearcoat: Some(coat(0.3)), ..Layers::default() }),
             ("all", Layers { anisotropy: Some(stretched), sheen: Some(sheen), clearcoat: Some(coat(0.0)) }),
         ] {
-            let bsdf = lobes(&MetallicRoughness { layers, ..plain.clone() }, wo);
+            let bsdf = lobes(&MetallicRoughness { layers, ..plain.clone() });
             assert_ne!(bsdf.eval(wo, wi, Transport::Radiance).f, before, "{name}");
             for mu in [1.0, 0.4, 0.05] {
                 let albedo = sampled_albedo(&bsdf, at_cosine(mu), 1, 2_000);
@@ -230,12 +262,12 @@ fn layers_change_what_they_cover_and_make_no_light() {
     let turned = |strength: f32, rotation: f32| {
         let anisotropy = Anisotropy { strength: ScalarParam::constant(strength), rotation, direction: None };
         let layers = Layers { anisotropy: Some(anisotropy), ..Layers::default() };
-        lobes(&MetallicRoughness { layers, ..gltf(1.0, 0.4) }, wo).eval(wo, wi, Transport::Radiance).f.0.x
+        lobes(&MetallicRoughness { layers, ..gltf(1.0, 0.4) }).eval(wo, wi, Transport::Radiance).f.0.x
     };
     use std::f32::consts::{FRAC_PI_2, PI};
     assert!((turned(0.7, 0.3) / turned(0.7, 0.3 + PI) - 1.0).abs() < 1e-3);
     assert!((turned(0.7, 0.3) / turned(0.7, 0.3 + FRAC_PI_2) - 1.0).abs() > 0.05);
-    assert_eq!(turned(0.0, 0.3), lobes(&gltf(1.0, 0.4), wo).eval(wo, wi, Transport::Radiance).f.0.x);
+    assert_eq!(turned(0.0, 0.3), lobes(&gltf(1.0, 0.4)).eval(wo, wi, Transport::Radiance).f.0.x);
 }
 
 /// A coat whose map bends it mirrors about its own normal.
@@ -250,7 +282,7 @@ fn a_coat_has_its_own_normal() {
     let layers = Layers { clearcoat: Some(clearcoat), ..Layers::default() };
     let model = Model::MetallicRoughness(Box::new(MetallicRoughness { layers, ..gltf(0.0, 0.5) }));
     let (wo, textures) = (at_cosine(0.9), textures());
-    let bsdf = compile(model).bsdf(&surface(), wo, &textures, &mut Bsdf::new()).clone();
+    let bsdf = compile(model).lobes(&surface(), &textures, None, &mut Bsdf::new()).clone();
     // (2 rgb − 1) × (0.1, 0.1, 1) of (0.2, 1, 0.6).
     let n = Vec3::new(-0.06, 0.1, 0.2).normalize();
     let deltas = bsdf.deltas(wo, Transport::Radiance);

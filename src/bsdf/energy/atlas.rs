@@ -9,7 +9,6 @@ use crate::bsdf::ggx::Ggx;
 use glam::{Vec3, Vec4};
 use rayon::prelude::*;
 use std::f64::consts::FRAC_PI_2;
-use std::sync::LazyLock;
 
 /// Nodes in μ, azimuth, the larger α (its fourth root) and the root of the quotient of the smaller and the larger.
 const NODES: [usize; 4] = [24, 16, 12, 7];
@@ -20,7 +19,7 @@ const NODES: [usize; 4] = [24, 16, 12, 7];
 /// but for directions almost in the surface across grooves much finer than they are wide (1.5·10⁻²). It takes about as long
 /// as ten of those tables, once, and a look-up costs sixteen of theirs.
 #[derive(Debug)]
-pub struct Atlas {
+pub(super) struct Atlas {
     /// μ and azimuth; one for each pair of roughnesses.
     grids: Grid<Vec4>,
     /// (ln loss, parts) averaged over the hemisphere.
@@ -52,13 +51,7 @@ fn roughness(i: usize, j: usize) -> Ggx {
 }
 
 impl Atlas {
-    /// The atlas; computed the first time.
-    pub fn get() -> &'static Self {
-        static ATLAS: LazyLock<Atlas> = LazyLock::new(Atlas::tabulate);
-        &ATLAS
-    }
-
-    fn tabulate() -> Self {
+    pub(super) fn tabulate() -> Self {
         let rule = Rule::new::<8, 8>();
         let [n_mu, n_azimuth, n_large, n_quotient] = NODES;
         let grids = Grid::tabulate(n_mu, n_azimuth * n_large * n_quotient, |i, rest| {
@@ -136,7 +129,7 @@ mod tests {
     #[test]
     fn interpolation_costs_little() {
         let start = std::time::Instant::now();
-        let (atlas, rule) = (Atlas::get(), Rule::new::<12, 24>());
+        let (atlas, rule) = (&Atlas::tabulate(), Rule::new::<12, 24>());
         println!("tabulated in {:.0?}", start.elapsed());
         let (mut worst, mut parts) = (0f32, 0f32);
         for (i, alpha) in [0.003f32, 0.02, 0.1, 0.3, 0.7].into_iter().enumerate() {
@@ -161,7 +154,7 @@ mod tests {
             }
         }
         let pair = Ggx { ax: 0.4, ay: 0.05 };
-        let own = crate::bsdf::Slice::new(Interface::Mirror, pair).mean;
+        let own = crate::bsdf::EnergyAt::new(Interface::Mirror, pair).mean();
         let mean = atlas.mean(&Pair::new(pair));
         assert!((own.loss - mean.loss).abs() < 1e-3 * own.loss, "{own:?} {mean:?}");
         println!("worst {worst:e}, parts {parts:e}");

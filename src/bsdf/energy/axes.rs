@@ -26,23 +26,41 @@ pub(super) struct Axis {
 impl Axis {
     #[inline]
     pub(super) fn new(interface: Interface, alpha: f32) -> Self {
-        let (inverse_alpha, critical) = (1.0 / alpha, interface.critical());
-        let (mut below, mut critical_scale) = (0.0, 0.0);
-        if critical > 0.0 {
-            below = asinh(critical * inverse_alpha);
-            critical_scale = 1.0 / (asinh((1.0 - critical) * inverse_alpha) + below);
+        match interface.critical() {
+            0.0 => Self {
+                inverse_alpha: 1.0 / alpha,
+                scale: 1.0 / asinh(1.0 / alpha),
+                critical: 0.0,
+                below: 0.0,
+                critical_scale: 0.0,
+            },
+            critical => Self::critical(critical, alpha),
         }
+    }
+
+    /// Crowded about the critical angle too, whose cosine may be 0.
+    #[inline]
+    pub(super) fn critical(critical: f32, alpha: f32) -> Self {
+        let inverse_alpha = 1.0 / alpha;
+        let below = asinh(critical * inverse_alpha);
+        let critical_scale = 1.0 / (asinh((1.0 - critical) * inverse_alpha) + below);
         Self { inverse_alpha, scale: 1.0 / asinh(inverse_alpha), critical, below, critical_scale }
     }
 
     /// In \[0, 1\].
     #[inline]
     pub(super) fn at(&self, mu: f32) -> f32 {
-        let x = (asinh(mu * self.inverse_alpha) * self.scale).sqrt();
-        if self.critical == 0.0 {
+        let x = self.without_critical(mu);
+        if self.critical_scale == 0.0 {
             return x;
         }
         0.5 * (x + (asinh((mu - self.critical) * self.inverse_alpha) + self.below) * self.critical_scale)
+    }
+
+    /// In \[0, 1\], as if there were no critical angle.
+    #[inline]
+    pub(super) fn without_critical(&self, mu: f32) -> f32 {
+        (asinh(mu * self.inverse_alpha) * self.scale).sqrt()
     }
 }
 
@@ -54,7 +72,7 @@ pub(super) fn abscissa(interface: Interface, mu: f32, alpha: f32) -> f32 {
 
 /// Inverse hyperbolic sine; fast, and odd to the last bit.
 #[inline]
-fn asinh(t: f32) -> f32 {
+pub(super) fn asinh(t: f32) -> f32 {
     let a = t.abs();
     (a + (a * a + 1.0).sqrt()).ln().copysign(t)
 }

@@ -14,6 +14,7 @@ impl<T: Copy + Default + Send + Add<Output = T> + Mul<f32, Output = T>> Value fo
 #[derive(Debug)]
 pub(in crate::bsdf) struct Grid<T> {
     nx: usize,
+    ny: usize,
     nodes: Vec<T>,
 }
 
@@ -65,21 +66,43 @@ impl<T: Value> Grid<T> {
     /// Evaluates `f` at the `nx` × `ny` nodes, given as integers, on all cores.
     pub(in crate::bsdf) fn tabulate(nx: usize, ny: usize, f: impl Fn(usize, usize) -> T + Sync) -> Self {
         let nodes = (0..nx * ny).into_par_iter().map(|i| f(i % nx, i / nx)).collect();
-        Self { nx, nodes }
+        Self { nx, ny, nodes }
+    }
+
+    /// Evaluates `f` at the `nx` × `ny` nodes on the thread that asks: what is made under a lock must not wait for others.
+    pub(in crate::bsdf) fn tabulate_here(nx: usize, ny: usize, f: impl Fn(usize, usize) -> T) -> Self {
+        let nodes = (0..nx * ny).map(|i| f(i % nx, i / nx)).collect();
+        Self { nx, ny, nodes }
+    }
+
+    /// The cubics along the second variable at `by` times as many nodes, between which lines follow them closely.
+    pub(super) fn refined(&self, by: usize) -> Self {
+        let ny = (self.ny - 1) * by + 1;
+        let node = |i: usize| {
+            let stencil = Stencil::new((i / self.nx) as f32 / (ny - 1) as f32, self.ny);
+            (0..4).fold(T::default(), |sum, j| {
+                sum + self.nodes[(stencil.first() + j) * self.nx + i % self.nx] * stencil.weight(j)
+            })
+        };
+        Self { nx: self.nx, ny, nodes: (0..self.nx * ny).map(node).collect() }
+    }
+
+    /// Value at `x` by the cubic and at `y` by the line between two nodes, both in \[0, 1\].
+    #[inline]
+    pub(super) fn between(&self, x: f32, y: f32) -> T {
+        let (x, y) = (Stencil::new(x, self.nx), y.clamp(0.0, 1.0) * (self.ny - 1) as f32);
+        let j = (y as usize).min(self.ny - 2);
+        let (up, down) = (y - j as f32, 1.0 - (y - j as f32));
+        let first = j * self.nx + x.first();
+        let (a, b) = (&self.nodes[first..][..4], &self.nodes[first + self.nx..][..4]);
+        let node = |k: usize| (a[k] * down + b[k] * up) * x.weights[k];
+        node(0) + node(1) + (node(2) + node(3))
     }
 
     /// Value at `x` in \[0, 1\] and the stencil `y` of the other variable.
     #[inline]
     pub(in crate::bsdf) fn at(&self, x: f32, y: Stencil) -> T {
         self.with(Stencil::new(x, self.nx), y)
-    }
-
-    /// Values at all nodes of the first variable, at the stencil `y` of the other.
-    pub(in crate::bsdf) fn line(&self, y: Stencil) -> Box<[T]> {
-        let at = |x: usize| {
-            (0..4).fold(T::default(), |sum, j| sum + self.nodes[(y.first() + j) * self.nx + x] * y.weight(j))
-        };
-        (0..self.nx).map(at).collect()
     }
 
     /// Value at the stencils of both variables.

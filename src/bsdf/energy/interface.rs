@@ -4,7 +4,7 @@ use super::quadrature::Rule;
 use crate::bsdf::angular::{TERMS, polynomials};
 use crate::bsdf::fresnel::{dielectric, pow5};
 use crate::math::safe_sqrt;
-use glam::DVec3;
+use glam::{DVec3, Vec4};
 use statrs::function::erf::erfc;
 use std::f64::consts::PI;
 
@@ -60,43 +60,28 @@ impl Interface {
     /// (Heitz 2014, section 5.3).
     pub(super) fn integrate(self, rule: &Rule, mu: f32, phi: f64, alpha: [f32; 2]) -> Energy {
         let seen = Seen::new(self, mu, phi, alpha);
-        let (o, a) = (seen.o, seen.a);
         let [loss, a, b] = match self {
             Self::Mirror | Self::BeckmannMirror => {
                 seen.mirrored(rule, |c, w, lost| [lost, w * (1.0 - c).powi(5), w * c * (1.0 - c).powi(6)])
             }
-            Self::Dielectric { eta } => {
-                let eta = f64::from(eta);
-                // η cos θt, squared; and the height of the refracted direction.
-                let inside = |c: f64| (eta - 1.0) * (eta + 1.0) + c * c;
-                let refracted = |m: DVec3, c: f64, g: f64| (m * (c - g) - o) / eta;
-                rule.visible_mean(
-                    o,
-                    a,
-                    |m| {
-                        let c = o.dot(m);
-                        let g2 = inside(c);
-                        [Seen::reflected(o, m).z, g2, -refracted(m, c, g2.max(0.0).sqrt()).z]
-                    },
-                    |m| {
-                        let c = o.dot(m).clamp(0.0, 1.0);
-                        let i = Seen::reflected(o, m);
-                        let (_, lost_r) = seen.kept_and_lost(i, i.z);
-                        let g2 = inside(c);
-                        if g2 <= 0.0 {
-                            return [lost_r, 0.0, 0.0];
-                        }
-                        let g = g2.sqrt();
-                        let (rs, rp) = ((c - g) / (c + g), (eta * eta * c - g) / (eta * eta * c + g));
-                        let f = 0.5 * (rs * rs + rp * rp);
-                        let t = refracted(m, c, g);
-                        let (w, lost_t) = seen.kept_and_lost(t, -t.z);
-                        [f * lost_r + (1.0 - f) * lost_t, (1.0 - f) * w, 0.0]
-                    },
-                )
-            }
+            Self::Dielectric { eta } => seen.refracted(rule, eta.into(), |_, f, lost_r, w, lost_t| {
+                [f * lost_r + (1.0 - f) * lost_t, (1.0 - f) * w, 0.0]
+            }),
         };
         Energy { loss: loss as f32, parts: [a as f32, b as f32] }
+    }
+
+    /// Energy that single scattering loses, by lanes, at a dielectric whose facets reflect `reflectance` below the critical
+    /// angle.
+    pub(super) fn filmed_loss(self, rule: &Rule, mu: f32, alpha: f32, reflectance: impl Fn(f32) -> Vec4) -> Vec4 {
+        let Self::Dielectric { eta } = self else { return Vec4::ZERO };
+        let seen = Seen::new(self, mu, 0.0, [alpha; 2]);
+        let [r, g, b] = seen.refracted(rule, eta.into(), |c, f, lost_r, w, lost_t| {
+            // All of it is reflected where nothing is refracted.
+            let lanes = if f < 1.0 || w > 0.0 { reflectance(c as f32) } else { Vec4::ONE };
+            [lanes.x, lanes.y, lanes.z].map(|r| f64::from(r) * lost_r + (1.0 - f64::from(r)) * lost_t)
+        });
+        Vec4::new(r as f32, g as f32, b as f32, g as f32)
     }
 
     /// Energy of single scattering whose facets reflect T_j(2√c − 1), for every j ([`crate::bsdf::Angular`]).
@@ -137,6 +122,44 @@ impl Seen {
         let si = stretch(i, self.a);
         let d = self.so * z + si * self.o.z;
         (z * (self.o.z + self.so) / d, self.o.z * (si - z) / d)
+    }
+
+    /// Mean over visible normals of g(c, F, 1 − w_r, w_t, 1 − w_t), c the cosine at the normal, F its reflectance, and w_r and
+    /// w_t the probabilities that what it reflects and what it refracts leaves; (c, 1, 1 − w_r, 0, 0) where nothing is
+    /// refracted.
+    fn refracted<const C: usize>(
+        &self,
+        rule: &Rule,
+        eta: f64,
+        g: impl Fn(f64, f64, f64, f64, f64) -> [f64; C],
+    ) -> [f64; C] {
+        let o = self.o;
+        // η cos θt, squared; and the refracted direction.
+        let inside = |c: f64| (eta - 1.0) * (eta + 1.0) + c * c;
+        let refracted = |m: DVec3, c: f64, root: f64| (m * (c - root) - o) / eta;
+        rule.visible_mean(
+            o,
+            self.a,
+            |m| {
+                let c = o.dot(m);
+                let g2 = inside(c);
+                [Self::reflected(o, m).z, g2, -refracted(m, c, g2.max(0.0).sqrt()).z]
+            },
+            |m| {
+                let c = o.dot(m).clamp(0.0, 1.0);
+                let i = Self::reflected(o, m);
+                let (_, lost_r) = self.kept_and_lost(i, i.z);
+                let g2 = inside(c);
+                if g2 <= 0.0 {
+                    return g(c, 1.0, lost_r, 0.0, 0.0);
+                }
+                let root = g2.sqrt();
+                let (rs, rp) = ((c - root) / (c + root), (eta * eta * c - root) / (eta * eta * c + root));
+                let t = refracted(m, c, root);
+                let (w, lost_t) = self.kept_and_lost(t, -t.z);
+                g(c, 0.5 * (rs * rs + rp * rp), lost_r, w, lost_t)
+            },
+        )
     }
 
     /// Mean over visible normals of g(c, w, 1 − w), c the cosine at the normal and w the probability that what it reflects

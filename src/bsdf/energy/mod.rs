@@ -11,20 +11,24 @@
 //! whose albedo is F_ms loss(o). So a lossless lobe (F_ms = 1) reflects exactly what falls on it, up to the error of the
 //! tables here: the quadrature is converged, the interpolation cubic, and `loss_avg` belongs to the interpolant.
 
+mod at;
 mod atlas;
 mod axes;
+mod dielectric;
+mod filmed;
 mod grid;
 mod interface;
 mod mean;
 mod moments;
 mod quadrature;
 mod sampling;
-mod slice;
 mod table;
+mod volume;
 
-pub use atlas::Atlas;
+pub use at::EnergyAt;
+pub use dielectric::{DielectricEnergy, Pair as DielectricPair};
+pub use filmed::FilmedEnergy;
 pub(super) use grid::{Grid, Stencil};
 pub use interface::{Energy, Interface};
 pub(super) use quadrature::gauss_legendre;
-pub use slice::Slice;
 pub use table::EnergyTable;

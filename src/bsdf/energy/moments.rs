@@ -1,11 +1,11 @@
 //! Energy of microfacets whose reflectance over the angle is a series.
 
+use super::at::EnergyAt;
 use super::axes::abscissa;
-use super::grid::Grid;
+use super::grid::{Grid, Stencil};
 use super::interface::Interface;
 use super::quadrature::Rule;
-use super::slice::Slice;
-use super::table::{EnergyTable, mean_row, means, n_alpha, nodes, over_cosine};
+use super::table::{EnergyTable, Kind, N_AZIMUTH, mean_row, means, n_alpha, nodes, over_cosine};
 use crate::bsdf::angular::{Angular, TERMS, polynomials};
 use crate::spectrum::Spectrum;
 use glam::{Vec3, Vec4};
@@ -56,6 +56,8 @@ impl Mul<f32> for Terms {
 pub(super) struct Moments {
     /// Less what the macroscopic surface would do, (1 − loss) T_j(2√μ − 1).
     grid: Grid<Terms>,
+    /// Its nodes in α or azimuth.
+    rows: usize,
     /// Averages over the hemisphere, as those of the energies.
     means: Vec<Terms>,
 }
@@ -67,6 +69,9 @@ impl EnergyTable {
     }
 
     fn moments_of(&self) -> &Moments {
+        if matches!(self.kind, Kind::EveryPair(_)) {
+            return Self::isotropic(self.interface).moments_of();
+        }
         if let Some(moments) = self.moments.get() {
             return moments;
         }
@@ -76,7 +81,8 @@ impl EnergyTable {
     }
 
     fn tabulate_moments(&self) -> Moments {
-        let Self { interface, anisotropic, .. } = *self;
+        let (interface, anisotropic) = (self.interface, self.pair());
+        let rows = if anisotropic.is_some() { N_AZIMUTH } else { n_alpha(interface) };
         let rule = Rule::new::<12, 12>();
         let grid = nodes(
             [N_MU, n_alpha(interface)],
@@ -88,14 +94,14 @@ impl EnergyTable {
                 Terms::new(std::array::from_fn(|j| (m[j] - m[0] * smooth[j]) as f32))
             },
         );
-        let means = means(n_alpha(interface), anisotropic, |row, alpha| {
+        let means = means(anisotropic, |row, alpha| {
             over_cosine(interface, alpha, |mu| {
                 let kept = 1.0 - self.energy(mu, alpha, row).loss;
-                moments_at(grid.at(place(interface, mu, alpha), row), mu, kept)
+                moments_at(grid.at(place(interface, mu, alpha), Stencil::new(row, rows)), mu, kept)
             })
         });
         let means = means.into_iter().map(|m| Terms::new(m.map(|x| x as f32))).collect();
-        Moments { grid, means }
+        Moments { grid, rows, means }
     }
 }
 
@@ -113,24 +119,27 @@ fn moments_at(rest: Terms, mu: f32, kept: f32) -> [f32; TERMS] {
     m
 }
 
-impl Slice {
+impl EnergyAt {
     /// Makes the tables of its microsurface for [`Self::reflected`]: ask before anything is traced.
     pub fn prepare_series(&self) {
         self.table.prepare_series();
     }
 
-    /// Single scattering by facets that reflect `f`, towards `w`: ∫ f(c) over the lobe, c the cosine at the facet.
+    /// Single scattering by facets that reflect `f`, towards `w`, where the energy `loss` is lost: ∫ f(c) over the lobe, c the
+    /// cosine at the facet.
     #[inline]
-    pub fn reflected(&self, f: &Angular, w: Vec3) -> Spectrum {
-        f.dot(&self.terms(w))
+    pub fn reflected(&self, f: &Angular, w: Vec3, loss: f32) -> Spectrum {
+        f.dot(&self.terms(w, loss))
     }
 
     /// M_j towards `w`.
     #[inline]
-    fn terms(&self, w: Vec3) -> [f32; TERMS] {
+    fn terms(&self, w: Vec3, loss: f32) -> [f32; TERMS] {
         let (mu, (alpha, row)) = (w.z.abs().min(1.0), self.place(w));
-        let rest = self.table.moments_of().grid.at(place(self.table.interface, mu, alpha), row);
-        moments_at(rest, mu, 1.0 - self.at(w).loss)
+        let moments = self.table.moments_of();
+        let row = Stencil::new(row, moments.rows);
+        let rest = moments.grid.at(place(self.table.interface, mu, alpha), row);
+        moments_at(rest, mu, 1.0 - loss)
     }
 
     /// Its cosine-weighted mean over the hemisphere.
@@ -156,10 +165,13 @@ mod tests {
         println!("tabulated in {:.0?}", start.elapsed());
         let mut worst = [0.0f64; TERMS];
         for alpha in [1e-3, 0.02, 0.13, 0.35, 0.7, 0.97] {
-            let slice = Slice::new(Interface::Mirror, Ggx { ax: alpha, ay: alpha });
+            let slice = EnergyAt::new(Interface::Mirror, Ggx { ax: alpha, ay: alpha });
             for mu in (1..=20).map(|i| (i as f32 / 20.3).powi(3)) {
                 let exact = Interface::Mirror.moments(&rule, mu, 0.0, [alpha, alpha]);
-                let terms = slice.terms(Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu));
+                let terms = {
+                    let w = Vec3::new((1.0 - mu * mu).sqrt(), 0.0, mu);
+                    slice.terms(w, slice.at(w).loss)
+                };
                 worst = std::array::from_fn(|j| worst[j].max((f64::from(terms[j]) - exact[j]).abs()));
             }
         }

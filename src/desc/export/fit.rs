@@ -1,7 +1,7 @@
 //! Indices of refraction with a given reflectance, for targets that know Fresnel's formulas and not Schlick's; and what
 //! microfacets that scatter once lack.
 
-use crate::bsdf::{self, Coat, EnergyTable, Interface, Micro, RoughReflection, Slice};
+use crate::bsdf::{self, Coat, DielectricEnergy, EnergyTable, Interface, Micro, RoughReflection};
 use crate::spectrum::Spectrum;
 
 /// Index of a dielectric that reflects `f0` at normal incidence: n = (1 + √F₀)/(1 − √F₀).
@@ -33,8 +33,7 @@ pub(super) fn metal(f0: f32) -> [f32; 2] {
 
 /// All over what is scattered once, of the interface of a dielectric: the mean of both its sides.
 pub(super) fn glass_again(alpha: f32, eta: f32) -> f32 {
-    let ggx = |eta| EnergyTable::isotropic(Interface::Dielectric { eta });
-    let loss = [eta, 1.0 / eta].map(|eta| Slice::isotropic(ggx(eta), alpha).mean.loss);
+    let loss = DielectricEnergy::isotropic(alpha, eta).mean_loss();
     1.0 / (1.0 - 0.5 * (loss[0] + loss[1])).max(0.1)
 }
 
@@ -46,15 +45,14 @@ pub(super) fn normal_reflectance(eta: f32, k: f32) -> f32 {
 
 /// A GGX surface of Schlick's reflectance, whose albedo counts all scattering.
 pub(super) fn rough(alpha: f32, f0: [f32; 3]) -> Coat {
-    let micro = Micro::isotropic(alpha, EnergyTable::isotropic(Interface::Mirror));
-    RoughReflection::new(micro, bsdf::Fresnel::schlick(Spectrum::from_rgb(f0), Spectrum::ONE)).coat()
+    let micro = Micro::of([alpha; 2], EnergyTable::isotropic(Interface::Mirror));
+    RoughReflection::new(micro, bsdf::Fresnel::schlick(Spectrum::from_rgb(f0), 1.0)).coat()
 }
 
 /// Mean albedo of all scattering over that of single scattering, per lane.
 pub(super) fn scattered_again(alpha: f32, f0: [f32; 3]) -> [f32; 3] {
     let all = rough(alpha, f0);
-    let once = Coat { f_ms: Spectrum::ZERO, ..all };
-    let [all, once] = [all, once].map(|coat| (Spectrum::ONE - coat.transmitted_average()).0);
+    let [all, once] = [Spectrum::ONE - all.transmitted_average(), all.once_average()].map(|s| s.0);
     let ratio = all / once.max(glam::Vec4::splat(1e-6));
     [ratio.x, ratio.y, ratio.z].map(|x| x.max(1.0))
 }

@@ -32,4 +32,8 @@ impl Scattering for Bsdf {
         let e = Bsdf::eval(self, wo.as_vec3(), wi.as_vec3(), Transport::Importance);
         (rgb(e.f), e.pdf.into())
     }
+
+    fn pdf_rev(&self, wo: DVec3, wi: DVec3) -> Option<f64> {
+        Some(Bsdf::eval(self, wo.as_vec3(), wi.as_vec3(), Transport::Importance).pdf_rev.into())
+    }
 }

@@ -7,19 +7,19 @@ use crate::warp::uniform_sphere;
 use glam::DVec3;
 
 /// Draws, or pairs of directions, that are looked at.
-const LOOKS: u64 = 3000;
+pub(super) const LOOKS: u64 = 3000;
 
 /// Numbers of one look.
-fn stream(trial: &Trial, salt: u32, i: u64) -> Sampler {
+pub(super) fn stream(trial: &Trial, salt: u32, i: u64) -> Sampler {
     Sampler::new(Kind::Independent, trial.seed, [salt, 1], i, 1)
 }
 
-fn numbers(s: &mut Sampler) -> [f32; 3] {
+pub(super) fn numbers(s: &mut Sampler) -> [f32; 3] {
     let [u, v] = s.next_2d();
     [s.next_1d(), u, v]
 }
 
-fn uniform(s: &mut Sampler) -> DVec3 {
+pub(super) fn uniform(s: &mut Sampler) -> DVec3 {
     uniform_sphere(s.next_2d()).as_dvec3().normalize()
 }
 

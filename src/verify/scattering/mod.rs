@@ -7,6 +7,7 @@
 //! | --- | --- |
 //! | `density` | samples follow `pdf` (χ²), and ∫ pdf + deltas + failures = 1 |
 //! | `identities` | `sample().pdf` = `pdf(wi)`, weight = f \|cos\|/pdf, f(a, b) = f(b, a); nothing is negative or no number |
+//! | `reverse` | what is said of the density from the other end is the density there, by value and by χ² |
 //! | `energy` | the directional albedo is at most 1, or is 1 |
 //! | `bins`, `quadrature` | cells that follow the draws of a function, however narrow its lobes, and integrals over them |
 //!
@@ -53,11 +54,13 @@ mod density;
 mod energy;
 mod identities;
 mod quadrature;
+mod reverse;
 mod suite;
 
 pub use density::{Integrals, density, integrals};
 pub use energy::{Sampled, energy, sampled};
 pub use identities::{draws, reciprocity};
+pub use reverse::{Reversed, reverse};
 pub use suite::check;
 
 use glam::DVec3;
@@ -85,6 +88,12 @@ pub trait Scattering: Sync {
     /// `eval` and `pdf` together, for those that have both at the price of one.
     fn both(&self, wo: DVec3, wi: DVec3) -> (Rgb, f64) {
         (self.eval(wo, wi), self.pdf(wo, wi))
+    }
+
+    /// What is said at `wo` of the density \[1/sr\] with which a draw from `wi` takes `wo`, where anything is: it must be
+    /// `pdf(wi, wo)`. Paths that are joined in the middle weigh by it.
+    fn pdf_rev(&self, _wo: DVec3, _wi: DVec3) -> Option<f64> {
+        None
     }
 }
 
@@ -122,6 +131,9 @@ impl<S: Scattering + ?Sized> Scattering for &S {
     }
     fn both(&self, wo: DVec3, wi: DVec3) -> (Rgb, f64) {
         (**self).both(wo, wi)
+    }
+    fn pdf_rev(&self, wo: DVec3, wi: DVec3) -> Option<f64> {
+        (**self).pdf_rev(wo, wi)
     }
 }
 

@@ -1,6 +1,6 @@
 //! All questions at once.
 
-use super::{Claims, Rgb, Scattering, at_cosine, density, draws, energy, reciprocity, sampled};
+use super::{Claims, Rgb, Scattering, at_cosine, density, draws, energy, reciprocity, reverse, sampled};
 use crate::verify::{Curve, Exhibit, Findings, Trial};
 
 /// Cosines of the angles that are looked at, from normal to grazing.
@@ -19,6 +19,7 @@ pub fn check(found: &mut Findings, trial: &Trial, name: &str, s: &impl Scatterin
             let (wo, at) = (at_cosine(side * mu), format!("{name}, cos {}", side * mu));
             let trial = &trial.part(&at);
             draws(found, trial, &at, s, wo, claims.rounding);
+            reverse(found, trial, &at, s, wo, claims.rounding);
             let integrals = density(found, trial, &at, s, wo);
             let aim = if claims.lossless { 1e-3 } else { 5e-3 };
             let sampled = sampled(trial, s, wo, &integrals, aim, trial.work(1 << 12, 1 << 16));

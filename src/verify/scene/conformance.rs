@@ -54,7 +54,7 @@ fn most(desc: &desc::Scene, scene: &Scene, index: usize, places_of_one: usize) -
         for (k, mu) in sides.iter().flat_map(|side| angles.iter().map(move |mu| side * mu)).enumerate() {
             let wo = at_cosine(mu);
             let trial = Trial { seed: hash(&[index as u64, number as u64, k as u64]), size: Size::Default };
-            let sampled = sampled(&trial, &worn.towards(wo), wo, &Integrals::WHITE, 2e-3, POINTS);
+            let sampled = sampled(&trial, &worn.lobes(), wo, &Integrals::WHITE, 2e-3, POINTS);
             let at = in_words(written, &scene.textures, place, mu);
             found.extend(sampled.all.iter().map(|lane| albedo(lane, &at)));
         }

@@ -147,7 +147,7 @@ impl Exam<'_> {
             let name = &format!("{}{place_name}", self.prefix);
             let worn = Worn { material: &self.subject.scene.materials[self.index], textures, place };
             let trial = &trial.part(name);
-            reciprocity(found, trial, name, &worn, &claims);
+            reciprocity(found, trial, name, &worn.lobes(), &claims);
             for side in [1.0, -1.0].into_iter().take(if two_sided { 2 } else { 1 }) {
                 let cosines = COSINES[usize::from(number > 0)];
                 let curve = self.angles(found, trial, name, &worn, side, cosines, number == 0);
@@ -190,7 +190,7 @@ impl Exam<'_> {
         let mut curve = Vec::new();
         for &mu in cosines {
             let wo = at_cosine(side * mu);
-            let (bsdf, at) = (worn.towards(wo), format!("{name}, cos {}", side * mu));
+            let (bsdf, at) = (worn.lobes(), format!("{name}, cos {}", side * mu));
             let trial = &trial.part(&at);
             draws(found, trial, &at, &bsdf, wo, CLAIMS.rounding);
             let sampled = sampled(trial, &bsdf, wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
@@ -228,7 +228,7 @@ impl Exam<'_> {
         let one = |&mu: &f64| {
             let (wo, at) = (at_cosine(side * mu), format!("{name}, made white, cos {}", side * mu));
             let sampled =
-                sampled(&trial.part(&at), &worn.towards(wo), wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
+                sampled(&trial.part(&at), &worn.lobes(), wo, &Integrals::WHITE, 2e-3, trial.work(1 << 10, 1 << 15));
             found.checks.replicated(format!("{at}: albedo = 1"), 1.0, &sampled.all[1], self.granted());
             albedo(&sampled.all[1], &self.place(place, side * mu))
         };

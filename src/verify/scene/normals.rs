@@ -2,7 +2,7 @@
 
 use super::surfaces::{Placed, area_vector, corners, meshes};
 use super::{Subject, count};
-use crate::bsdf::Bsdf;
+use crate::bsdf::Scratch;
 use crate::sampler::{Kind, Sampler};
 use crate::scene::{Departure, Shading, Vertex};
 use crate::shape::{TriangleAttributes, triangle_surface};
@@ -115,7 +115,7 @@ impl Frames {
         let m = placed.object.to_world;
         let normal_matrix = glam::Mat3::from_mat4(m).inverse().transpose();
         let flip = placed.flipped();
-        let mut scratch = Bsdf::new();
+        let mut scratch = Scratch::new();
         let stride = mesh.indices.len() as f64 / points as f64;
         for k in 0..points.min(mesh.indices.len()) {
             let index = if stride > 1.0 { (k as f64 * stride) as usize } else { k };
@@ -148,7 +148,7 @@ impl Frames {
             };
             let shading = Shading::new(material, &vertex, &subject.scene.textures, &mut scratch);
             let f = shading.frame;
-            let albedo = shading.bsdf.albedo(shading.wo);
+            let albedo = shading.bsdf.albedo();
             let finite = [f.s, f.t, f.n].iter().all(|v| v.is_finite()) && albedo.is_finite();
             let right = (shading.wo.z > 0.0) == vertex.front && shading.wo.z != 0.0;
             self.skew = self.skew.max(skew([f.s, f.t, f.n]));

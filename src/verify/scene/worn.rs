@@ -8,11 +8,9 @@ use crate::material::Material;
 use crate::material::param::{self, Point};
 use crate::shape::Surface;
 use crate::texture::Textures;
-use crate::verify::scattering::{Draw, Rgb, Scattering};
-use glam::{DVec3, Vec3A};
+use glam::Vec3A;
 
-/// A material where it is looked at. Which lobe is drawn how often depends on `wo`, so that every question makes the
-/// lobes anew; [`towards`](Self::towards) keeps them for one `wo`.
+/// A material where it is looked at.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Worn<'a> {
     pub material: &'a Material,
@@ -21,8 +19,8 @@ pub(super) struct Worn<'a> {
 }
 
 impl Worn<'_> {
-    /// Its lobes for light along `wo`.
-    pub(super) fn towards(&self, wo: DVec3) -> Bsdf {
+    /// Its lobes.
+    pub(super) fn lobes(&self) -> Bsdf {
         let surface = Surface {
             p: Vec3A::ZERO,
             p_error: Vec3A::ZERO,
@@ -33,22 +31,7 @@ impl Worn<'_> {
             uv: self.place.uv,
             color: self.place.color,
         };
-        let mut scratch = Bsdf::new();
-        self.material.bsdf(&surface, wo.as_vec3(), self.textures, &mut scratch).clone()
-    }
-}
-
-impl Scattering for Worn<'_> {
-    fn sample(&self, wo: DVec3, u: [f32; 3]) -> Option<Draw> {
-        Scattering::sample(&self.towards(wo), wo, u)
-    }
-
-    fn eval(&self, wo: DVec3, wi: DVec3) -> Rgb {
-        Scattering::eval(&self.towards(wo), wo, wi)
-    }
-
-    fn pdf(&self, wo: DVec3, wi: DVec3) -> f64 {
-        Scattering::pdf(&self.towards(wo), wo, wi)
+        self.material.lobes(&surface, self.textures, None, &mut Bsdf::new()).clone()
     }
 }
 

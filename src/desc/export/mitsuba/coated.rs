@@ -81,7 +81,7 @@ pub(super) fn coated(
 
 /// Share of the base that is smooth plastic's, and the albedo of the rest where the base is white.
 fn share(alpha: f32, f0: f32) -> (f32, f32) {
-    let fresnel = Fresnel::schlick(Spectrum::splat(f0), Spectrum::ONE);
+    let fresnel = Fresnel::schlick(Spectrum::splat(f0), 1.0);
     let coat = fit::rough(alpha, [f0; 3]);
     let at = |cos: f32| 1.0 - coat.transmitted(Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos)).0.x;
     let smooth = |cos: f32| fresnel.eval(cos).0.x;

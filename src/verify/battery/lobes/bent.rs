@@ -1,6 +1,6 @@
 //! N1: BSDFs about shading normals that are bent away from the geometric one.
 
-use crate::bsdf::{Bsdf, Pdf};
+use crate::bsdf::{Pdf, Scratch};
 use crate::desc::{self, ColorParam, Fresnel, Layers, MetallicRoughness, Model, Roughness, ScalarParam};
 use crate::material::Material;
 use crate::sampler::{Kind, Sampler, hash};
@@ -134,7 +134,7 @@ impl Bent<'_> {
         let ns = Vec3A::new(0.28 * sin, -0.96 * sin, cos);
         let surface = Surface { ns, tangent: Vec3A::X, ..Surface::NOWHERE };
         let vertex = Vertex { surface, wo, front: wo.z > 0.0, ..Vertex::NOWHERE };
-        let (textures, mut scratch) = (Textures::default(), Bsdf::new());
+        let (textures, mut scratch) = (Textures::default(), Scratch::new());
         let mut shading = Shading::new(&self.subject.material, &vertex, &textures, &mut scratch);
         shading.leak = [self.turn, 0.5];
         ask(&mut shading)

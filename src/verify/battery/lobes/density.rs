@@ -1,18 +1,22 @@
 //! The density is the law.
 
 use super::{any, each};
-use crate::verify::scattering::{at_cosine, density, draws};
+use crate::verify::scattering::{Reversed, at_cosine, density, draws, reverse};
 use crate::verify::{Task, Topic};
 
 /// The estimator f cos/pdf is right only where draws have the density that they say.
 const TOPIC: Topic = Topic {
     id: "DENSITY",
-    title: "draws follow pdf (χ²); ∫ pdf + deltas + failures = 1; sample().pdf = pdf(wi); weight = f cos/pdf",
+    title: "draws follow pdf (χ²), also as told from the other end; ∫ pdf + deltas + failures = 1; sample().pdf = pdf(wi); \
+            weight = f cos/pdf",
     source: "VERIFICATION.md, rule 3; Pearson 1900",
 };
 
 /// Arithmetic of weights in f32: a product and a quotient.
 const ROUNDING: f64 = 1e-5;
+
+/// Half-vectors of a pair, and refraction to and fro, round differently from either end.
+const REVERSED: f64 = 1e-3;
 
 pub(super) fn tasks() -> Vec<Task> {
     each(any, |s| {
@@ -24,6 +28,11 @@ pub(super) fn tasks() -> Vec<Task> {
                 let trial = &trial.part(&at);
                 density(found, trial, &at, &*s.bsdf, wo);
                 draws(found, trial, &at, &*s.bsdf, wo, ROUNDING);
+                reverse(found, trial, &at, &*s.bsdf, wo, REVERSED);
+            }
+            if !s.deltas {
+                let (wo, at) = (at_cosine(0.5), "told from the other end, cos 0.5");
+                density(found, &trial.part(at), at, &Reversed(&*s.bsdf), wo);
             }
         })
     })

@@ -1,6 +1,6 @@
 //! A1: directional albedo of Lambert's lobe, and the ladder of estimators.
 
-use super::{each, refracts};
+use super::each;
 use crate::bsdf::{Bsdf, Specimen, Transport};
 use crate::verify::measure::to_detect;
 use crate::verify::scattering::{at_cosine, integrals, sampled};
@@ -20,7 +20,7 @@ pub(super) fn tasks() -> Vec<Task> {
     each(broad, |s| {
         Task::new(TOPIC, s.name.clone(), move |trial, found| {
             let lambert = s.name.starts_with("lambert");
-            let cosines: &[f64] = match (lambert, refracts(&s)) {
+            let cosines: &[f64] = match (lambert, s.refracts) {
                 (true, _) => &[1.0, 0.6, 0.1, 1e-3, -0.7],
                 (false, true) => trial.pick(&[0.6, -0.5], &[0.9, 0.3, -0.2, -0.5, -0.9]),
                 (false, false) => trial.pick(&[0.6], &[0.9, 0.6, 0.2, -0.5]),
@@ -65,8 +65,7 @@ pub(super) fn tasks() -> Vec<Task> {
 
 /// Broad enough for directions that know nothing of the lobe.
 fn broad(s: &Specimen) -> bool {
-    let sharp = ["0.002", "0.02", "0.05", "α 0.1", "[0.1", "1.02", "mixture", "smooth", "mirror"];
-    !sharp.iter().any(|sharp| s.name.contains(sharp))
+    !s.sharp && !s.deltas
 }
 
 /// ∫ f |cos θ| dω over both hemispheres, by directions of the upper one and their images below.

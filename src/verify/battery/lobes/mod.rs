@@ -39,28 +39,7 @@ fn any(_: &Specimen) -> bool {
     true
 }
 
-/// Not all of it is deltas. By name: to look at the lobe would be to make its tables, for whoever asks for a list.
+/// Not all of it is deltas.
 fn smooth(specimen: &Specimen) -> bool {
-    let deltas = ["mirror", "smooth gold", "smooth dielectric", "thin sheet, smooth"];
-    !deltas.iter().any(|name| specimen.name.starts_with(name))
-}
-
-/// The two sides of it differ.
-fn refracts(specimen: &Specimen) -> bool {
-    specimen.name.contains("dielectric")
-}
-
-/// Relative error in energy that is granted: its tables interpolate; and where indices nearly match, the refracted lobe
-/// is so much narrower than the reflected one that quadrature loses a little of it. The atlas of both roughnesses, and the
-/// tables of sheen, are coarser.
-fn tables(specimen: &Specimen) -> f64 {
-    match specimen.name.as_str() {
-        name if name.contains("1.02") => 6e-4,
-        name if name.contains("rough dielectric") => 3e-4,
-        name if name.starts_with("turned") => 3e-3,
-        name if name.contains("sheen") => 1e-3,
-        // Series of twelve terms for two fringes.
-        name if name.contains("film") => 1e-3,
-        _ => 2e-4,
-    }
+    !specimen.deltas
 }

@@ -37,7 +37,7 @@ pub(super) fn tasks() -> Vec<Task> {
                 // One draw, and its weight times η² is that of importance.
                 same &=
                     radiance.wi == importance.wi && radiance.pdf == importance.pdf && radiance.eta == importance.eta;
-                same &= (radiance.eta == 1.0) == (wo.z * radiance.wi.z > 0.0 || thin(&s.name));
+                same &= (radiance.eta == 1.0) == (wo.z * radiance.wi.z > 0.0 || s.thin);
                 let eta2 = radiance.eta * radiance.eta;
                 let pairs = [(radiance.weight * eta2, importance.weight), {
                     let f = |mode| s.bsdf.eval(wo, radiance.wi, mode).f;
@@ -83,9 +83,4 @@ pub(super) fn tasks() -> Vec<Task> {
         }
     }));
     tasks
-}
-
-/// Light goes through it unbent.
-fn thin(name: &str) -> bool {
-    name.contains("thin")
 }

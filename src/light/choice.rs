@@ -19,10 +19,9 @@ const BY_POWER: f32 = 0.01;
 /// not known.
 const LEAST: f32 = 0.25;
 
-/// The light sampler: chooses one of all lights, by power where they are few, by what each can send to the receiver where they are
-/// many.
+/// The choice among lights: by power where they are few, by what each can send to the receiver where they are many.
 #[derive(Clone, Debug, Default)]
-pub struct LightSampler {
+pub struct Choice {
     /// By power; `None` where nothing shines.
     alias: Option<Alias>,
     /// Where there are many.
@@ -39,7 +38,7 @@ struct Many {
     irradiance: f32,
 }
 
-impl LightSampler {
+impl Choice {
     /// Among lights of these luminous `fluxes` (0: never chosen) in a scene of this radius.
     pub fn new(lights: &[Light], fluxes: &[f64], radius: f32) -> Self {
         let total: f64 = fluxes.iter().sum();
@@ -50,7 +49,7 @@ impl LightSampler {
         Self { alias, many }
     }
 
-    /// Chooses among these lights by power alone, however many they are: what the tree is measured against.
+    /// The same lights by power alone, however many they are: what the tree is measured against.
     pub fn by_power(self) -> Self {
         Self { many: None, ..self }
     }
