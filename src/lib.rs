@@ -43,7 +43,7 @@
 //! | 2 | [`medium`] | what is inside closed surfaces: absorption, index, nesting |
 //! | 2 | [`texture`] | constants, images, checkers |
 //! | 2 | [`shape`] | triangles and quadrics: intersect, sample |
-//! | 2 | [`desc`] | what the author wrote, the readers of TOML, glTF, OBJ, PLY, the writers for Mitsuba and pbrt |
+//! | 2 | [`desc`] | what the author wrote, the readers of TOML, glTF, OBJ, PLY, the writers of TOML and for Mitsuba and pbrt |
 //! | 2 | [`film`] | layers of sums per pixel, errors, splats, EXR and PNG |
 //! | 3 | [`material`] | parameters and textures at a hit → lobes |
 //! | 3 | [`bvh`] | nearest hit? occluded? |

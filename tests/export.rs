@@ -206,6 +206,44 @@ fn what_cannot_be_said_is_noted_in_the_file_and_on_stderr() {
     assert_eq!(err, "");
 }
 
+/// A scene written in our own format renders to the same numbers.
+#[test]
+fn the_own_format_says_everything() {
+    let folder = tempfile::tempdir().unwrap();
+    let render = |scene: &str, image: &str| {
+        let arguments = ["render", scene, "-o", image, "--size", "24x16", "--spp", "8", "--layers", "beauty,stderr"];
+        assert_eq!(radianza(folder.path(), &arguments).0, 0, "{scene}");
+        read_exr(&folder.path().join(image)).unwrap().layers
+    };
+    for scene in [
+        "scenes/cornell-box.toml",
+        "scenes/interior.toml",
+        "scenes/outdoor.toml",
+        "scenes/veach-mis.toml",
+        "scenes/materials/anisotropy.glb",
+        "scenes/materials/dispersion.glb",
+        "scenes/materials/lights-punctual.glb",
+        "scenes/materials/texture-transform.glb",
+        "scenes/verify/l1-ies.toml",
+        "scenes/verify/f1-nested.toml",
+    ] {
+        let (text, err) = export(folder.path(), scene, "own/a.toml", &[]);
+        assert!(err.contains("wrote own/a.toml"), "{err}");
+        assert!(render(repo(scene).to_str().unwrap(), "a.exr") == render("own/a.toml", "b.exr"), "{scene}\n{text}");
+    }
+}
+
+#[test]
+fn the_command_line_is_written_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let options = ["--size", "30x20", "--spp", "7", "--integrator", "local", "--filter", "box", "--max-depth", "3"];
+    let (text, _) = export(folder.path(), "scenes/cornell-box.toml", "a.toml", &options);
+    let lines = ["resolution = [30, 20]", "spp = 7", "integrator = \"local\"", "max_depth = 3", "filter = \"box\""];
+    for line in lines {
+        assert!(text.lines().any(|l| l == line), "{line} in\n{text}");
+    }
+}
+
 #[test]
 fn what_is_wrong_has_its_exit_code() {
     let folder = tempfile::tempdir().unwrap();

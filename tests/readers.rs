@@ -12,12 +12,16 @@ mod models;
 mod schema;
 #[path = "common/skip.rs"]
 mod skip;
+#[path = "readers/toml_budgets.rs"]
+mod toml_budgets;
 #[path = "readers/toml_errors.rs"]
 mod toml_errors;
 #[path = "readers/toml_optics.rs"]
 mod toml_optics;
 #[path = "readers/toml_values.rs"]
 mod toml_values;
+#[path = "readers/toml_written.rs"]
+mod toml_written;
 
 use std::path::{Path, PathBuf};
 

@@ -3,20 +3,21 @@
 use super::pick::Pick;
 use super::settings::{SPP, camera, resolution};
 use super::{Failure, args, environment};
-use radianza::desc::export::{ExportError, Target, View, export};
+use radianza::desc::export::{ExportError, Target, View, export, write_toml};
 use radianza::desc::{self, Filter, Integrator};
 use std::path::PathBuf;
 
-/// Write a scene for another renderer. What is given here counts before what the scene's [render] says, and that before the
-/// defaults. What the other renderer cannot say is approximated or left out, and a note names it.
+/// Write a scene for another renderer, or in our own format. What is given here counts before what the scene's [render]
+/// says, and that before the defaults. What another renderer cannot say is approximated or left out, and a note names it;
+/// our own format says everything, and its image is the same to the bit.
 #[derive(clap::Args, Debug)]
 pub(crate) struct Arguments {
     /// The scene: .toml, .gltf, .glb, .obj or .ply
     scene: PathBuf,
     #[command(flatten)]
     pick: Pick,
-    /// The file: .xml for Mitsuba 3, .pbrt for pbrt-v4. Its meshes and images go into the folder NAME-mitsuba or
-    /// NAME-pbrt beside it
+    /// The file: .toml for our own format, .xml for Mitsuba 3, .pbrt for pbrt-v4. Its meshes and images go into the folder
+    /// NAME-toml, NAME-mitsuba or NAME-pbrt beside it
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
     /// Samples per pixel [128]
@@ -48,35 +49,58 @@ pub(crate) struct Arguments {
 /// Writes the files.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     let path = &arguments.output;
-    let target = Target::of(path).ok_or_else(|| {
+    let own = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"));
+    let target = Target::of(path);
+    if target.is_none() && !own {
         let message = format!(
-            "`{}` is no name of a scene for another renderer; expected .xml (Mitsuba 3) or .pbrt (pbrt-v4)",
+            "`{}` is no name of a scene; expected .toml (our own format), .xml (Mitsuba 3) or .pbrt (pbrt-v4)",
             path.display()
         );
-        Failure::Usage(message)
-    })?;
+        return Err(Failure::Usage(message));
+    }
     let mut scene = desc::load_with(&arguments.scene, &arguments.pick.options())?;
     if let Some(path) = &arguments.env {
         environment::replace(&mut scene, path)?;
     }
-    let file = &scene.render;
     let camera = camera(arguments.camera.as_deref(), &scene.cameras)?;
-    let view = View {
+    let written = match target {
+        Some(target) => export(&scene, &view(arguments, &scene, camera), target, path),
+        None => write_toml(&chosen(arguments, scene.clone(), camera), path),
+    };
+    let written = written.map_err(|e| match e {
+        ExportError::Scene(e) => Failure::Scene(e),
+        ExportError::Output(path, e) => Failure::Output(path, e),
+    })?;
+    if !arguments.quiet {
+        scene.notes.iter().for_each(|text| eprintln!("note: {text}"));
+        let name = target.map_or("toml", Target::name);
+        written.notes.iter().for_each(|text| eprintln!("note: {name}: {text}"));
+        eprintln!("wrote {} and {} files beside it", path.display(), written.files);
+    }
+    Ok(())
+}
+
+/// What another renderer is to render of the scene.
+fn view(arguments: &Arguments, scene: &desc::Scene, camera: usize) -> View {
+    let file = &scene.render;
+    View {
         camera,
         size: arguments.size.unwrap_or_else(|| resolution(&scene.cameras[camera])),
         spp: arguments.spp.or(file.spp).unwrap_or(SPP),
         max_depth: arguments.max_depth.or(file.max_depth),
         integrator: arguments.integrator.or(file.integrator).unwrap_or_default(),
         filter: arguments.filter.or(file.filter).unwrap_or_default(),
-    };
-    let written = export(&scene, &view, target, path).map_err(|e| match e {
-        ExportError::Scene(e) => Failure::Scene(e),
-        ExportError::Output(path, e) => Failure::Output(path, e),
-    })?;
-    if !arguments.quiet {
-        scene.notes.iter().for_each(|text| eprintln!("note: {text}"));
-        written.notes.iter().for_each(|text| eprintln!("note: {}: {text}", target.name()));
-        eprintln!("wrote {} and {} files beside it", path.display(), written.files);
     }
-    Ok(())
+}
+
+/// The scene with what the command line says of its camera and settings; the chosen camera comes first.
+fn chosen(arguments: &Arguments, mut scene: desc::Scene, camera: usize) -> desc::Scene {
+    scene.cameras[..=camera].rotate_right(1);
+    scene.cameras[0].resolution = arguments.size.or(scene.cameras[0].resolution);
+    let render = &mut scene.render;
+    render.spp = arguments.spp.or(render.spp);
+    render.max_depth = arguments.max_depth.or(render.max_depth);
+    render.integrator = arguments.integrator.or(render.integrator);
+    render.filter = arguments.filter.or(render.filter);
+    scene
 }

@@ -62,10 +62,17 @@ impl Folder {
             let message = format!("`{name}`: geometry is read from files, not from memory");
             return Err(Error::unsupported(&self.scene, place, message));
         }
-        let folder = match self.scene.parent() {
-            Some(p) if !p.as_os_str().is_empty() => p,
-            _ => Path::new("."),
-        };
+        self.identity(name, place)?;
+        Ok(self.path().join(name))
+    }
+
+    /// The one path of the file that the scene calls `name`, equal for all its names: canonical, without links. Fails
+    /// like [`Self::resolve`].
+    pub fn identity(&self, name: &str, place: &str) -> Result<PathBuf, Error> {
+        let folder = self.path();
+        if self.held.is_some() {
+            return Ok(folder.join(name));
+        }
         let missing = |e: std::io::Error| Error::missing(&self.scene, place, format!("`{name}` cannot be read: {e}"));
         let root = folder.canonicalize().map_err(missing)?;
         let path = root.join(name).canonicalize().map_err(missing)?;
@@ -73,7 +80,14 @@ impl Folder {
             let message = format!("`{name}` lies outside the scene's folder; copy or link it there");
             return Err(Error::invalid(&self.scene, place, message));
         }
-        Ok(folder.join(name))
+        Ok(path)
+    }
+
+    fn path(&self) -> &Path {
+        match self.scene.parent() {
+            Some(p) if !p.as_os_str().is_empty() => p,
+            _ => Path::new("."),
+        }
     }
 
     /// Reads the file that the scene calls `name`.

@@ -146,6 +146,30 @@ fn tokens(text: &str, skip: usize) -> impl Iterator<Item = (usize, &str)> {
     })
 }
 
+/// What is wrong with a profile that was put together elsewhere, if anything.
+pub(super) fn check(profile: &Profile) -> Result<(), String> {
+    let Profile { kind, vertical, horizontal, candela, tilt } = profile;
+    let tilted = tilt.as_ref().map(|tilt| ("tilt", &tilt.angles));
+    for (which, angles) in [("vertical", vertical), ("horizontal", horizontal)].into_iter().chain(tilted) {
+        if angles.is_empty() {
+            return Err(format!("there are no {which} angles; expected at least one"));
+        }
+        if !angles.is_sorted_by(|a, b| a < b) {
+            return Err(format!("the {which} angles do not ascend"));
+        }
+    }
+    if let Some(Tilt { angles, factors }) = tilt
+        && angles.len() != factors.len()
+    {
+        return Err(format!("there are {} factors of the tilt; expected {}", factors.len(), angles.len()));
+    }
+    let expected = vertical.len() * horizontal.len();
+    if candela.len() != expected {
+        return Err(format!("there are {} intensities; expected {expected}", candela.len()));
+    }
+    range(*kind, vertical, horizontal)
+}
+
 /// Whether the angles are those of the photometric type.
 fn range(kind: Photometry, vertical: &[f32], horizontal: &[f32]) -> Result<(), String> {
     let ends = |angles: &[f32]| (angles[0], angles[angles.len() - 1]);

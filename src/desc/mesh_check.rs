@@ -69,6 +69,16 @@ fn repair_normals(mesh: &mut Mesh) {
         }
     }
     for n in &mut mesh.normals {
-        *n = n.as_dvec3().try_normalize().map_or(glam::Vec3::Z, |n| n.as_vec3());
+        *n = unit_vector(*n).unwrap_or(glam::Vec3::Z);
     }
+}
+
+/// The unit vector along `v`, which stays as it is where it is one as far as f32 tells: normalised again it might end an
+/// ulp away, and what was written would not be read.
+pub(crate) fn unit_vector(v: glam::Vec3) -> Option<glam::Vec3> {
+    let exact = v.as_dvec3();
+    if (exact.length_squared() - 1.0).abs() <= 4.0 * f64::from(f32::EPSILON) {
+        return Some(v);
+    }
+    exact.try_normalize().map(|unit| unit.as_vec3())
 }

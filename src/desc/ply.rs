@@ -1,7 +1,8 @@
 //! PLY, the polygon format of Stanford (Turk 1994): ASCII and binary, triangles, quadrangles and other polygons.
 //!
-//! Read are the elements `vertex` (x y z, nx ny nz, u v or s t, red green blue) and `face` (vertex_indices). Colours of
-//! whole numbers are sRGB bytes, others are linear. Texture coordinates count v upwards and are turned.
+//! Read are the elements `vertex` (x y z, nx ny nz, u v or s t, red green blue alpha) and `face` (vertex_indices). Colours
+//! of whole numbers are sRGB bytes, others are linear. Texture coordinates count v upwards and are turned. Our own files
+//! have tangents too (tx ty tz tw), and two sets of texture coordinates that count v downwards (u0 v0, u1 v1).
 
 use super::{ColorParam, Error, Material, Mesh, Model, Object, Scene, Shape, files, image_file, mesh_check};
 use glam::{Vec2, Vec3, Vec4};
@@ -71,6 +72,14 @@ fn mesh(bytes: &[u8], path: &Path) -> Result<(Mesh, usize), Error> {
                 if ["u", "s", "texture_u"].iter().any(|key| has(key)) {
                     mesh.uv[0] = vertices.iter().map(|v| Vec2::new(v.uv.x, 1.0 - v.uv.y)).collect();
                 }
+                if has("tx") && has("ty") && has("tz") && has("tw") {
+                    mesh.tangents = vertices.iter().map(|v| v.tangent).collect();
+                }
+                for (set, [u, v]) in [["u0", "v0"], ["u1", "v1"]].into_iter().enumerate() {
+                    if has(u) && has(v) {
+                        mesh.uv[set] = vertices.iter().map(|v| v.uv_sets[set]).collect();
+                    }
+                }
                 if has("red") && has("green") && has("blue") {
                     mesh.colors = vertices.iter().map(|v| v.color).collect();
                 }
@@ -98,13 +107,16 @@ fn mesh(bytes: &[u8], path: &Path) -> Result<(Mesh, usize), Error> {
 struct Vertex {
     position: Vec3,
     normal: Vec3,
+    tangent: Vec4,
     uv: Vec2,
+    uv_sets: [Vec2; 2],
     color: Vec4,
 }
 
 impl PropertyAccess for Vertex {
     fn new() -> Self {
-        Self { position: Vec3::ZERO, normal: Vec3::ZERO, uv: Vec2::ZERO, color: Vec4::ONE }
+        let (uv, uv_sets) = (Vec2::ZERO, [Vec2::ZERO; 2]);
+        Self { position: Vec3::ZERO, normal: Vec3::ZERO, tangent: Vec4::X, uv, uv_sets, color: Vec4::ONE }
     }
 
     fn set_property(&mut self, name: &str, property: Property) -> PropertyAccessResult {
@@ -115,16 +127,26 @@ impl PropertyAccess for Vertex {
             "nx" => &mut self.normal.x,
             "ny" => &mut self.normal.y,
             "nz" => &mut self.normal.z,
+            "tx" => &mut self.tangent.x,
+            "ty" => &mut self.tangent.y,
+            "tz" => &mut self.tangent.z,
+            "tw" => &mut self.tangent.w,
+            "u0" => &mut self.uv_sets[0].x,
+            "v0" => &mut self.uv_sets[0].y,
+            "u1" => &mut self.uv_sets[1].x,
+            "v1" => &mut self.uv_sets[1].y,
             "u" | "s" | "texture_u" => &mut self.uv.x,
             "v" | "t" | "texture_v" => &mut self.uv.y,
             "red" => &mut self.color.x,
             "green" => &mut self.color.y,
             "blue" => &mut self.color.z,
+            "alpha" => &mut self.color.w,
             _ => return PropertyAccessResult::Ignored,
         };
         let Some(value) = scalar(&property) else { return PropertyAccessResult::UnsupportedType };
         *target = match (name, &property) {
             ("red" | "green" | "blue", Property::UChar(byte)) => image_file::srgb8_to_linear([*byte, 0, 0, 0])[0],
+            ("alpha", Property::UChar(byte)) => f32::from(*byte) / 255.0,
             _ => value,
         };
         PropertyAccessResult::Set

@@ -3,9 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 /// Which part of the rendering equation is solved.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Integrator {
     /// No scattering (ρ = 0): L = Le at the first surface.
@@ -20,9 +18,7 @@ pub enum Integrator {
 }
 
 /// How the hemisphere of the rendering equation is sampled. All are unbiased; they differ in error.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum Strategy {
     /// Directions uniform over the (hemi)sphere.
@@ -39,9 +35,7 @@ pub enum Strategy {
 }
 
 /// Where the numbers come from.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, schemars::JsonSchema, clap::ValueEnum,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "lowercase")]
 pub enum SamplerKind {
     /// Independent pseudo-random numbers (PCG).
@@ -54,7 +48,7 @@ pub enum SamplerKind {
 }
 
 /// Pixel reconstruction filter, applied by importance sampling: a sample touches one pixel.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize, clap::ValueEnum)]
 #[serde(rename_all = "kebab-case")]
 pub enum Filter {
     /// The pixel's own square.
@@ -67,8 +61,7 @@ pub enum Filter {
 }
 
 /// Radiance → display value in the PNG.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema, clap::ValueEnum)]
-#[serde(rename_all = "lowercase")]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
 pub enum Tonemap {
     /// Clipped at 1.
     Linear,
@@ -82,8 +75,7 @@ pub enum Tonemap {
 }
 
 /// Suggestions of a scene file; `None` where it says nothing.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, schemars::JsonSchema)]
-#[serde(deny_unknown_fields)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct RenderSettings {
     /// Samples per pixel.
     pub spp: Option<u32>,

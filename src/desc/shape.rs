@@ -48,6 +48,14 @@ pub struct Mesh {
 }
 
 impl Mesh {
+    /// Bytes of memory.
+    pub fn memory(&self) -> usize {
+        let Self { positions, indices, normals, tangents, uv: [first, second], colors } = self;
+        let places = size_of_val(&positions[..]) + size_of_val(&indices[..]) + size_of_val(&normals[..]);
+        let charts = size_of_val(&tangents[..]) + size_of_val(&first[..]) + size_of_val(&second[..]);
+        places + charts + size_of_val(&colors[..])
+    }
+
     /// Its vertices carry something that textures are placed by: coordinates, tangents, or colours.
     pub fn has_chart(&self) -> bool {
         !(self.tangents.is_empty() && self.uv.iter().all(Vec::is_empty) && self.colors.is_empty())

@@ -50,11 +50,11 @@ fn unknown_words() {
         ("[material.a]\ntype = 'conductor'\nmetal = 'Xx'", "3:9", "unknown metal `Xx`; expected one of `Ag`"),
         ("[render]\nsppp = 1", "2:1", "unknown key `sppp`; did you mean `spp`?"),
         ("[render]\nintegrator = 'paht'", "2:14", "`integrator`: unknown value `paht`; did you mean `path`?"),
-        ("[expect]\nlayers = { DX = 1 }", "1:1", "unknown layer `DX`; did you mean `D`?"),
+        ("[expect]\nlayers = { DX = 1 }", "2:12", "unknown layer `DX`; did you mean `D`?"),
         (
             "[texture.t]\ntype = 'image'\nfile = 'x.png'\nfilter = 'cubic'",
             "4:10",
-            "unknown value \"cubic\"; expected one of",
+            "unknown value `cubic`; expected one of",
         ),
         ("[material.a]\ntype = 'absorb'\nemission_sides = 'fornt'", "3:18", "did you mean `front`?"),
     ]);
@@ -91,12 +91,12 @@ fn wrong_types_and_lengths() {
             "`indices`: found -1, expected a whole number ≥ 0",
         ),
         ("material = []", "1:12", "`material`: found an array of 0 values, expected tables by name"),
-        ("[render]\nspp = 'a'", "2:7", "`spp`: found string \"a\""),
-        ("[render]\nspp = -1", "2:7", "`spp`: found integer `-1`"),
+        ("[render]\nspp = 'a'", "2:7", "`spp`: found the string \"a\", expected a whole number ≥ 1"),
+        ("[render]\nspp = -1", "2:7", "`spp`: found -1, expected a whole number ≥ 1"),
         (
             "[[shape]]\ntype = 'box'\nscale = 'big'",
             "3:9",
-            "`scale`: found the string \"big\", expected a number or an array of 3 numbers",
+            "`scale`: found the string \"big\", expected a finite number or an array of 3 finite numbers",
         ),
         (
             "[[shape]]\ntype = 'box'\nmatrix = [[1, 0, 0, 0]]",
@@ -204,9 +204,9 @@ fn numbers_out_of_range() {
             "3:27",
             "`uv_set` is 2, expected 0 or 1",
         ),
-        ("[expect]\nradiance = -1", "1:1", "-1 is not a radiance"),
-        ("[expect]\nradiance = 1\nregion = [3, 0, 3, 5]", "1:1", "`region` is [3, 0, 3, 5]"),
-        ("[render]\nspp = 0", "1:1", "`spp` is 0, expected at least 1"),
+        ("[expect]\nradiance = -1", "2:12", "`radiance`: found -1, expected a number ≥ 0"),
+        ("[expect]\nradiance = 1\nregion = [3, 0, 3, 5]", "3:10", "`region` is [3, 0, 3, 5]"),
+        ("[render]\nspp = 0", "2:7", "`spp`: found 0, expected a whole number ≥ 1"),
     ]);
 }
 
@@ -353,31 +353,6 @@ fn columns_count_characters() {
     check(&[("name = '\u{4e16}\u{754c}' x", "1:13", "is not TOML")]);
 }
 
-#[test]
-fn instances_cannot_explode() {
-    // 2^40 spheres in 41 groups.
-    let mut text = String::from("[group.g0]\n[[group.g0.shape]]\ntype = 'sphere'\nemission = 1\n");
-    for i in 1..=40 {
-        text += &format!("[group.g{i}]\ninstance = [{{ group = 'g{0}' }}, {{ group = 'g{0}' }}]\n", i - 1);
-    }
-    let e = error(&text);
-    assert!(e.message.contains("the instances would take more than 1024 MiB"), "{e}");
-}
-
-#[test]
-fn deep_nesting_is_refused() {
-    let mut text = String::from("[group.g0]\n");
-    for i in 1..=100 {
-        text += &format!("[group.g{}]\ninstance = [{{ group = 'g{i}' }}]\n", i - 1);
-    }
-    // Tables may be given once; the first is empty.
-    let text = text.replacen("[group.g0]\n", "", 1) + "[group.g100]\n";
-    let e = error(&text);
-    assert!(e.message.contains("nested more than 64 deep"), "{e}");
-    let e = error(&format!("a = {}{}", "[".repeat(100_000), "]".repeat(100_000)));
-    assert!(e.message.contains("is not TOML"), "{e}");
-}
-
 /// One key misspelt at a time: each is found where it stands.
 #[test]
 fn every_misspelt_key_is_found() {
@@ -392,7 +367,7 @@ fn every_misspelt_key_is_found() {
             continue;
         }
         assert_eq!(e.place, format!("{}:1", i + 1), "{e}");
-        assert!(e.message.starts_with(&format!("unknown key `{}q`; ", key.replace('-', "_"))), "{e}");
+        assert!(e.message.starts_with(&format!("unknown key `{key}q`; ")), "{e}");
         seen += 1;
     }
     assert!(seen > 80, "{seen}");

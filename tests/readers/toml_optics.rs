@@ -13,7 +13,7 @@ fn model(keys: &str) -> Result<Model, String> {
 #[test]
 fn lobes_are_read() {
     let grey = ColorParam { vertex_color: true, ..ColorParam::constant([0.5; 3]) };
-    assert_eq!(model("type = \"diffuse\"\nreflectance = 0.5\nroughness = 0"), Ok(Model::Diffuse { reflectance: grey }));
+    assert_eq!(model("type = \"diffuse\"\nreflectance = 0.5"), Ok(Model::Diffuse { reflectance: grey }));
     let roughness = ScalarParam::constant(0.3);
     let rough = Model::RoughDiffuse { reflectance: grey, roughness };
     assert_eq!(model("type = \"diffuse\"\nreflectance = 0.5\nroughness = 0.3"), Ok(rough));

@@ -1,4 +1,5 @@
-//! Scenes written for other renderers, so that the same scene can be rendered by them: Mitsuba 3 (XML) and pbrt-v4.
+//! Scenes written for other renderers, so that the same scene can be rendered by them: Mitsuba 3 (XML) and pbrt-v4; and in
+//! our own format.
 //!
 //! Plain data goes in, files come out: the scene file, and beside it a folder of meshes (PLY) and images (PNG where that
 //! loses nothing, else OpenEXR). What the target cannot say is approximated or left out, and a note names it; the notes
@@ -16,6 +17,7 @@
 //! | `micro.rs` | roughness as α |
 //! | `sun.rs` | the sun as a far disk |
 //! | `fit.rs` | indices of refraction with a given reflectance |
+//! | `own.rs` | our own format, by [`toml::write`](super::toml::write) |
 //! | `mitsuba/` | the elements of Mitsuba's XML |
 //! | `pbrt/` | the directives of pbrt |
 
@@ -27,11 +29,14 @@ mod mesh;
 mod micro;
 mod mitsuba;
 mod octahedral;
+mod own;
 mod pbrt;
 mod picture;
 mod sun;
 mod tessellate;
 mod value;
+
+pub use own::write_toml;
 
 use super::{Camera, Error, Filter, Integrator, Scene};
 use crate::film::file::{check_writable, write_atomic};

@@ -1,49 +1,61 @@
 //! From the tables to the scene: names become indices, files are read, groups are placed.
 
-use super::keys::{Entry, Named};
+use super::budget::Budget;
+use super::keys::Named;
+use super::lookup::Lookup;
 use super::read::{At, Fault, suggest};
 use super::scene::{InstanceTable, SceneFile};
 use super::shape::{ShapeKind, ShapeTable};
-use crate::desc::files::{self, Folder};
-use crate::desc::{Emission, Image, Interior, Light, Material, Mesh, Model, Object, Options, Scene, TextureRef};
-use crate::desc::{ies, image_file, load, mesh_check, place};
+use crate::desc::files::Folder;
+use crate::desc::{Emission, Interior, Light, Material, Mesh, MetallicRoughness, Model};
+use crate::desc::{Object, Options, Scene, Shape, TextureRef};
+use crate::desc::{ies, image_file, mesh_check, place};
 use glam::Mat4;
 use std::collections::HashMap;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::Arc;
-
-/// Most memory that placed objects and lights may take \[bytes\]: nested groups multiply.
-const MAX_PLACED: usize = 1 << 30;
 
 /// A scene under construction.
 pub(super) struct Builder<'a> {
-    file: &'a SceneFile,
-    folder: Folder,
-    options: &'a Options,
+    pub(super) file: &'a SceneFile,
+    pub(super) folder: Folder,
+    pub(super) options: &'a Options,
     /// What there is so far.
     pub(super) scene: Scene,
-    images: HashMap<String, usize>,
+    /// Images by their file.
+    pub(super) images: HashMap<PathBuf, usize>,
     /// Light profiles by their file.
-    profiles: HashMap<String, Arc<ies::Profile>>,
+    pub(super) profiles: HashMap<PathBuf, Arc<ies::Profile>>,
     /// Texture by its number in the file and whether it is used as a colour.
     textures: HashMap<(usize, bool), usize>,
-    parts: HashMap<String, Part>,
+    /// Meshes by their file.
+    pub(super) meshes: HashMap<PathBuf, Arc<Mesh>>,
+    /// The content of files by their path.
+    pub(super) parts: HashMap<PathBuf, Part>,
     groups: HashMap<usize, Part>,
     /// Groups and mixtures being built, to find cycles.
     open: Vec<(&'static str, usize)>,
+    /// How many mixtures are being built, one in another.
+    mixtures: usize,
+    /// Where shared geometry stands in the space of its shape.
+    geometry: Vec<Mat4>,
+    pub(super) named_profiles: Vec<Arc<ies::Profile>>,
     /// The material of shapes that only emit.
     absorb: Option<usize>,
-    /// Memory that was spent on placing \[bytes\].
-    placed: usize,
+    pub(super) placed: Budget,
+    mixed: Budget,
     /// What images may take.
-    pixels: image_file::Grant,
+    pub(super) pixels: image_file::Grant,
 }
 
 /// Objects and lights that stand together.
 #[derive(Clone, Debug, Default)]
-struct Part {
-    objects: Vec<Object>,
-    lights: Vec<Light>,
+pub(super) struct Part {
+    /// Shapes, placed.
+    pub(super) objects: Vec<Object>,
+    /// Lights without a surface, placed.
+    pub(super) lights: Vec<Light>,
 }
 
 impl<'a> Builder<'a> {
@@ -56,12 +68,17 @@ impl<'a> Builder<'a> {
             scene: Scene::default(),
             images: HashMap::new(),
             profiles: HashMap::new(),
+            meshes: HashMap::new(),
             textures: HashMap::new(),
             parts: HashMap::new(),
             groups: HashMap::new(),
             open: Vec::new(),
+            mixtures: 0,
+            geometry: Vec::new(),
+            named_profiles: Vec::new(),
             absorb: None,
-            placed: 0,
+            placed: Budget::of_instances(),
+            mixed: Budget::of_mixtures(),
             pixels: image_file::Grant::default(),
         }
     }
@@ -70,18 +87,39 @@ impl<'a> Builder<'a> {
     pub(super) fn build(mut self) -> Result<Scene, Fault> {
         let file = self.file;
         self.scene.name = file.name.clone().unwrap_or_default();
-        self.scene.cameras = file.camera.0.iter().map(|c| c.build()).collect::<Result<_, _>>()?;
-        self.scene.render = file.render.as_ref().map(|r| r.0.clone()).unwrap_or_default();
-        self.scene.expect = file.expect.0.iter().map(|e| e.0.clone()).collect();
+        self.scene.cameras = file.camera.0.iter().map(|c| c.value.build(&c.at)).collect::<Result<_, _>>()?;
+        self.scene.render = file.render.as_ref().map(|r| r.build()).unwrap_or_default();
+        self.scene.expect = file.expect.0.iter().map(|e| e.value.build(&e.at)).collect::<Result<_, _>>()?;
+
+        // What has a name of its own keeps its number.
+        for entry in &file.image.entries {
+            let image = entry.value.build(&entry.name, &mut self)?;
+            self.scene.images.push(image);
+        }
+        for (index, entry) in file.texture.entries.iter().enumerate() {
+            if entry.value.is_settled() {
+                self.texture_number(index, true)?;
+            }
+        }
+        for entry in &file.geometry.entries {
+            let Some((shape, local)) = entry.value.build(&entry.name, &entry.table, &mut self)? else {
+                return Err(Fault::new(&entry.table, "expected geometry of another type than `file` and `geometry`"));
+            };
+            self.scene.shapes.push(shape);
+            self.geometry.push(local);
+        }
+        for entry in &file.profile.entries {
+            self.named_profiles.push(entry.value.build(&entry.table)?.into());
+        }
 
         // Materials keep their number; textures are made as materials ask for them, and those that none uses are
         // made too, so that their errors do not wait for their first use.
-        for entry in &file.material.0 {
+        for entry in &file.material.entries {
             let material = entry.value.build(&entry.name, &entry.at, &mut self)?;
             self.scene.materials.push(material);
         }
-        for index in 0..file.texture.0.len() {
-            if !self.textures.contains_key(&(index, true)) && !self.textures.contains_key(&(index, false)) {
+        for index in 0..file.texture.entries.len() {
+            if !self.textures.contains_key(&(index, false)) {
                 self.texture_number(index, true)?;
             }
         }
@@ -91,7 +129,7 @@ impl<'a> Builder<'a> {
             all.lights.push(light.build(&mut self)?);
         }
         // Groups that no instance places are built all the same: their errors count.
-        for (index, entry) in file.group.0.iter().enumerate() {
+        for (index, entry) in file.group.entries.iter().enumerate() {
             self.group(index, &entry.at)?;
         }
         self.scene.objects = all.objects;
@@ -114,6 +152,7 @@ impl<'a> Builder<'a> {
             let index = find(&self.file.group, "group", &instance.group)?;
             let group = self.group(index, &instance.group.at)?;
             let name = instance.name.as_deref().unwrap_or(&instance.group.value);
+            self.placed.pay(self.lamps(&group, material), &instance.group.at)?;
             part.add(&group, to_parent, material, Some(name), &instance.group.at, &mut self.placed)?;
         }
         Ok(part)
@@ -121,12 +160,16 @@ impl<'a> Builder<'a> {
 
     /// Adds one shape, or what its file has.
     fn shape(&mut self, shape: &'a ShapeTable, at: &Range<usize>, part: &mut Part) -> Result<(), Fault> {
-        let ShapeTable { name, material, emission, emission_sides, reversed, closed, place, kind } = shape;
+        let ShapeTable { name, material, emission, emission_sides: sides, emission_coat, .. } = shape;
+        let ShapeTable { reversed, closed, place, kind, .. } = shape;
         let to_parent = place.matrix(at)?;
         let material = material.as_ref().map(|m| self.material(m)).transpose()?;
         let emission = match emission {
             None => None,
-            Some(radiance) => Some(Emission { radiance: radiance.build(self)?, sides: *emission_sides, coat: None }),
+            Some(radiance) => {
+                let coat = emission_coat.as_ref().map(|coat| coat.build(self)).transpose()?;
+                Some(Emission { radiance: radiance.build(self)?, sides: *sides, coat })
+            }
         };
 
         if let ShapeKind::FileShape(f) = kind {
@@ -137,6 +180,7 @@ impl<'a> Builder<'a> {
                 object.closed |= closed;
             }
             let name = (!name.is_empty()).then_some(name.as_str());
+            self.placed.pay(self.lamps(&content, material), &f.file.at)?;
             return part.add(&content, to_parent, material, name, &f.file.at, &mut self.placed);
         }
         let material = match material {
@@ -147,12 +191,21 @@ impl<'a> Builder<'a> {
                 return Err(Fault::new(at, message));
             }
         };
-        let Some((geometry, local)) = kind.build(name, at, self)? else { return Ok(()) };
-        self.scene.shapes.push(geometry);
+        let (number, local) = match kind {
+            ShapeKind::SharedShape(shared) => {
+                let number = find(&self.file.geometry, "geometry", &shared.geometry)?;
+                (number, self.geometry[number])
+            }
+            _ => {
+                let Some((geometry, local)) = kind.build(name, at, self)? else { return Ok(()) };
+                self.scene.shapes.push(geometry);
+                (self.scene.shapes.len() - 1, local)
+            }
+        };
         part.objects.push(Object {
             name: name.clone(),
-            shape: self.scene.shapes.len() - 1,
-            to_world: to_parent * local,
+            shape: number,
+            to_world: if local == Mat4::IDENTITY { to_parent } else { to_parent * local },
             material,
             emission,
             reversed: *reversed,
@@ -161,12 +214,26 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
+    /// Memory of the emitting triangles of a part: each place of such a mesh is as many lights.
+    fn lamps(&self, part: &Part, material: Option<usize>) -> usize {
+        const LIGHT: usize = 128;
+        let emits = |object: &&Object| {
+            let worn = self.scene.materials.get(material.unwrap_or(object.material));
+            object.emission.is_some() || worn.is_some_and(|m| m.emission.is_some())
+        };
+        let lights = |object: &Object| match &self.scene.shapes[object.shape] {
+            Shape::Mesh(mesh) => LIGHT * mesh.indices.len(),
+            _ => LIGHT,
+        };
+        part.objects.iter().filter(emits).map(lights).sum()
+    }
+
     /// The content of a group, built once.
     fn group(&mut self, index: usize, at: &Range<usize>) -> Result<Part, Fault> {
         if let Some(part) = self.groups.get(&index) {
             return Ok(part.clone());
         }
-        let entry = &self.file.group.0[index];
+        let entry = &self.file.group.entries[index];
         self.enter("group", index, &entry.name, at)?;
         let mut part = self.part(&entry.value.shape, &entry.value.instance)?;
         for light in &entry.value.light {
@@ -174,31 +241,6 @@ impl<'a> Builder<'a> {
         }
         self.open.pop();
         self.groups.insert(index, part.clone());
-        Ok(part)
-    }
-
-    /// The content of a file, read once, its lists appended to the scene's.
-    fn file_part(&mut self, file: &At<String>) -> Result<Part, Fault> {
-        let plain = files::plain(&file.value);
-        if let Some(part) = self.parts.get(&plain) {
-            return Ok(part.clone());
-        }
-        let path = self.folder.resolve(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let content = load::read_model(&path, self.options).map_err(|mut e| {
-            e.message = match e.place.as_str() {
-                "" => format!("`{}`: {}", file.value, e.message),
-                place => format!("`{}`, {place}: {}", file.value, e.message),
-            };
-            e.place.clear();
-            Fault::of_file(&file.at, e)
-        })?;
-        let before = self.scene.notes.len();
-        let (objects, lights) = place::append(&mut self.scene, content);
-        for note in &mut self.scene.notes[before..] {
-            *note = format!("{}: {note}", file.value);
-        }
-        let part = Part { objects, lights };
-        self.parts.insert(plain, part.clone());
         Ok(part)
     }
 
@@ -218,7 +260,7 @@ impl<'a> Builder<'a> {
     /// The scattering model of a material, for mixtures.
     pub(super) fn model(&mut self, name: &At<String>) -> Result<Model, Fault> {
         let index = self.material(name)?;
-        let entry = &self.file.material.0[index];
+        let entry = &self.file.material.entries[index];
         if entry.value.is_more_than_a_model() {
             let message =
                 format!("`{}` has an emission, opacity or normal map, which a mixture cannot honour", entry.name);
@@ -229,10 +271,27 @@ impl<'a> Builder<'a> {
                 format!("`{}` has an absorption, priority or dispersion, which a mixture cannot honour", entry.name);
             return Err(Fault::new(&name.at, message));
         }
+        // Each part of a mixture has a copy of its model: mixtures of mixtures are trees, however few materials they name.
+        self.mixed.pay(size_of::<Model>() + size_of::<MetallicRoughness>(), &name.at)?;
         self.enter("material", index, &entry.name, &name.at)?;
         let model = entry.value.kind.build(&entry.at, self);
         self.open.pop();
         model
+    }
+
+    /// Counts the mixtures that are being built. Written out one in another they must stay below what TOML parsers nest.
+    pub(super) fn enter_mixture(&mut self, at: &Range<usize>) -> Result<(), Fault> {
+        const DEEPEST: usize = 16;
+        self.mixtures += 1;
+        if self.mixtures > DEEPEST {
+            return Err(Fault::new(at, format!("mixtures are nested more than {DEEPEST} deep")));
+        }
+        Ok(())
+    }
+
+    /// The end of [`Self::enter_mixture`].
+    pub(super) fn leave_mixture(&mut self) {
+        self.mixtures -= 1;
     }
 
     /// Notes that a group or a mixture is being built; refuses cycles, and nesting that would exhaust the stack.
@@ -248,83 +307,28 @@ impl<'a> Builder<'a> {
     }
 
     /// A use of a texture.
-    pub(super) fn texture(&mut self, name: &At<String>, uv_set: u32, as_color: bool) -> Result<TextureRef, Fault> {
+    pub(super) fn texture(&mut self, name: &At<String>, lookup: &Lookup, as_color: bool) -> Result<TextureRef, Fault> {
+        let uv_set = lookup.uv_set;
         if uv_set > 1 {
             return Err(Fault::new(&name.at, format!("`uv_set` is {uv_set}, expected 0 or 1")));
         }
         let index = find(&self.file.texture, "texture", name)?;
         let texture = self.texture_number(index, as_color)?;
-        let transform = self.file.texture.0[index].value.uv_transform();
+        let transform = lookup.transform(self.file.texture.entries[index].value.uv_transform());
         Ok(TextureRef { texture, uv_set: uv_set as usize, transform })
     }
 
     fn texture_number(&mut self, index: usize, as_color: bool) -> Result<usize, Fault> {
+        let entry = &self.file.texture.entries[index];
+        let as_color = as_color || entry.value.is_settled();
         if let Some(number) = self.textures.get(&(index, as_color)) {
             return Ok(*number);
         }
-        let texture = self.file.texture.0[index].value.build(as_color, self)?;
+        let texture = entry.value.build(as_color, &entry.table, self)?;
         let number = self.scene.textures.len();
         self.scene.textures.push(texture);
         self.textures.insert((index, as_color), number);
         Ok(number)
-    }
-
-    /// An image file, decoded once.
-    pub(super) fn image(&mut self, file: &At<String>) -> Result<usize, Fault> {
-        let plain = files::plain(&file.value);
-        if let Some(number) = self.images.get(&plain) {
-            return Ok(*number);
-        }
-        let image = self.decode(file)?;
-        let number = self.scene.images.len();
-        self.scene.images.push(image.into());
-        self.images.insert(plain, number);
-        Ok(number)
-    }
-
-    /// The image of an environment: linear, and nowhere negative.
-    pub(super) fn environment_image(&mut self, file: &At<String>) -> Result<usize, Fault> {
-        let mut image = self.decode(file)?;
-        let (width, height) = (image.size[0], image.size[1]);
-        if width != 2 * height {
-            self.scene.notes.push(format!(
-                "{}: {width} × {height} pixels are stretched over 360° × 180° (expected twice as wide as high)",
-                file.value
-            ));
-        }
-        image.pixels = image_file::srgb_to_linear(image.pixels);
-        let cleared = image_file::clear_negatives(&mut image);
-        if cleared > 0 {
-            self.scene.notes.push(format!("{}: {cleared} pixels had negative values, now 0", file.value));
-        }
-        self.scene.images.push(image.into());
-        Ok(self.scene.images.len() - 1)
-    }
-
-    /// A light's measured profile, read once.
-    pub(super) fn profile(&mut self, file: &At<String>) -> Result<Arc<ies::Profile>, Fault> {
-        let plain = files::plain(&file.value);
-        if let Some(profile) = self.profiles.get(&plain) {
-            return Ok(profile.clone());
-        }
-        let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        // A tilt's file stands beside the profile.
-        let folder = plain.rfind('/').map_or("", |end| &plain[..=end]);
-        let beside = |name: &str| self.folder.read(&format!("{folder}{name}"), "").map_err(|e| e.message);
-        let profile = ies::parse_beside(&bytes, &beside);
-        let profile = profile.map_err(|e| Fault::new(&file.at, format!("`{}`, {e}", file.value)))?;
-        let profile = Arc::new(profile);
-        self.profiles.insert(plain, profile.clone());
-        Ok(profile)
-    }
-
-    fn decode(&self, file: &At<String>) -> Result<Image, Fault> {
-        let bytes = self.folder.read(&file.value, "").map_err(|e| Fault::of_file(&file.at, e))?;
-        let wrong = |message| Fault::new(&file.at, format!("`{}` {message}", file.value));
-        let image = image_file::decode(&file.value, &bytes).map_err(wrong)?;
-        self.pixels.read(bytes.len());
-        self.pixels.pay(image.pixels.memory()).map_err(|message| wrong(format!("is one too many: {message}")))?;
-        Ok(image)
     }
 
     /// A mesh that keeps what readers guarantee.
@@ -350,15 +354,12 @@ impl Part {
         material: Option<usize>,
         name: Option<&str>,
         at: &Range<usize>,
-        placed: &mut usize,
+        placed: &mut Budget,
     ) -> Result<(), Fault> {
         let name_length = name.map_or(0, str::len);
-        let size = |o: &Object| std::mem::size_of::<Object>() + o.name.len() + name_length;
-        *placed += other.objects.iter().map(size).sum::<usize>();
-        *placed += other.lights.len() * std::mem::size_of::<Light>();
-        if *placed > MAX_PLACED {
-            return Err(Fault::new(at, format!("the instances would take more than {} MiB", MAX_PLACED >> 20)));
-        }
+        let size = |o: &Object| size_of::<Object>() + o.name.len() + name_length;
+        let objects: usize = other.objects.iter().map(size).sum();
+        placed.pay(objects + size_of_val(&other.lights[..]), at)?;
         for object in &other.objects {
             let to_world = super::place::invertible(at, to_parent * object.to_world)?;
             let name = match (name, object.name.as_str()) {
@@ -375,9 +376,9 @@ impl Part {
 }
 
 /// The number of a named table.
-fn find<T>(named: &Named<T>, kind: &str, name: &At<String>) -> Result<usize, Fault> {
-    named.0.iter().position(|e: &Entry<T>| e.name == name.value).ok_or_else(|| {
-        let hint = suggest(&name.value, named.0.iter().map(|e| e.name.as_str()));
+pub(super) fn find<T>(named: &Named<T>, kind: &str, name: &At<String>) -> Result<usize, Fault> {
+    named.number(&name.value).ok_or_else(|| {
+        let hint = suggest(&name.value, named.entries.iter().map(|e| e.name.as_str()));
         Fault::new(&name.at, format!("unknown {kind} `{}`; {hint}", name.value))
     })
 }

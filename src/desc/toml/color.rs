@@ -2,21 +2,30 @@
 
 use super::build::Builder;
 use super::keys::keys;
-use super::read::{At, Fault, Fraction, Node, NonNegative, Read, mismatch, words};
+use super::lookup::Lookup;
+use super::number::{Fraction, NonNegative};
+use super::read::{At, Fault, Node, Read, mismatch};
 use super::schema::Defs;
+use super::short::Each;
+use super::words::words;
+use super::write::Write;
+use super::writer::Names;
 use crate::desc::image_file::srgb8_to_linear;
 use crate::desc::{ColorParam, ScalarParam};
 use ::toml::de::DeValue;
 use serde_json::{Value as Json, json};
 
+/// A number for all channels, or RGB.
+pub(super) type Rgb<R> = Each<R, 3>;
+
 /// A linear RGB colour: one number for all three, `[r, g, b]`, `"#rrggbb"` (sRGB), the name of a texture, or a table
 /// `{ texture = "name", factor = … }`. `Reflectance` and `Radiance` are its two ranges.
 #[derive(Clone, Debug)]
 pub(super) enum Color<R> {
-    /// The same everywhere.
+    /// A constant.
     Constant([R; 3]),
-    /// From a texture, with a factor.
-    Textured(Textured<R>),
+    /// A factor on a texture or on vertex colours.
+    Varying(TexturedColor),
 }
 
 /// Each channel in [0, 1].
@@ -24,28 +33,25 @@ pub(super) type Reflectance = Color<Fraction>;
 /// Each channel at least 0.
 pub(super) type Radiance = Color<NonNegative>;
 
-/// A texture with a factor.
-#[derive(Clone, Debug)]
-pub(super) struct Textured<R> {
-    texture: At<String>,
-    factor: [R; 3],
-    uv_set: u32,
-}
-
 /// A number that a colour may have in a channel.
 pub(super) trait Channel: Read + Copy {
     /// Its value.
     fn get(self) -> f32;
-    /// The same from a value in [0, 1].
-    fn from_fraction(x: f32) -> Self;
+    /// The channel whose value is `x`, in range.
+    fn of(x: f32) -> Self;
+    /// Whether `x` is in range.
+    fn contains(x: f32) -> bool;
 }
 
 impl Channel for Fraction {
     fn get(self) -> f32 {
         self.0
     }
-    fn from_fraction(x: f32) -> Self {
+    fn of(x: f32) -> Self {
         Self(x)
+    }
+    fn contains(x: f32) -> bool {
+        (0.0..=1.0).contains(&x)
     }
 }
 
@@ -53,20 +59,24 @@ impl Channel for NonNegative {
     fn get(self) -> f32 {
         self.0
     }
-    fn from_fraction(x: f32) -> Self {
+    fn of(x: f32) -> Self {
         Self(x)
+    }
+    fn contains(x: f32) -> bool {
+        x >= 0.0
     }
 }
 
 keys! {
-    /// A texture with a factor.
+    /// A factor, on a texture or on vertex colours.
     struct TexturedColor {
-        /// Name of the texture.
-        texture: At<String>,
+        /// Name of the texture. Default: none.
+        texture: Option<At<String>>,
         /// Factor on its RGB: a number or [r, g, b]. Default 1.
-        factor: Option<Grey<NonNegative>>,
-        /// Which of the mesh's UV sets: 0 or 1. Default 0.
-        uv_set: u32 = 0,
+        factor: At<Rgb<NonNegative>> = At::nowhere(Each([NonNegative(1.0); 3])),
+        /// Whether the vertex colours of a mesh that has some are a factor too. Default: of base colours, and of the reflectance of diffuse and Phong materials.
+        vertex_colors: Option<bool>,
+        ..lookup: Lookup,
     }
 }
 
@@ -79,61 +89,39 @@ keys! {
         factor: NonNegative = NonNegative(1.0),
         /// Channel: "r", "g", "b" or "a". Default "r".
         channel: ChannelName = ChannelName(0),
-        /// Which of the mesh's UV sets: 0 or 1. Default 0.
-        uv_set: u32 = 0,
+        ..lookup: Lookup,
     }
 }
 
 /// A channel of a texture.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ChannelName(usize);
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct ChannelName(pub(super) usize);
 
 words! { ChannelName: "r" => ChannelName(0), "g" => ChannelName(1), "b" => ChannelName(2), "a" => ChannelName(3); }
-
-/// A number for all channels, or RGB.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Grey<R>(pub(super) [R; 3]);
-
-impl<R: Channel> Read for Grey<R> {
-    fn read(node: &Node<'_>) -> Result<Self, Fault> {
-        match node.get_ref() {
-            DeValue::Array(_) => <[R; 3]>::read(node).map(Self),
-            DeValue::Float(_) | DeValue::Integer(_) => R::read(node).map(|x| Self([x; 3])),
-            _ => Err(mismatch::<Self>(node)),
-        }
-    }
-    fn one() -> String {
-        format!("{} or {}", R::one(), <[R; 3]>::one())
-    }
-    fn many() -> String {
-        R::many()
-    }
-    fn schema(defs: &mut Defs) -> Json {
-        json!({ "anyOf": [R::schema(defs), <[R; 3]>::schema(defs)] })
-    }
-}
 
 impl<R: Channel> Read for Color<R> {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
         match node.get_ref() {
-            DeValue::Array(_) | DeValue::Float(_) | DeValue::Integer(_) => {
-                Grey::read(node).map(|c| Self::Constant(c.0))
-            }
+            DeValue::Array(_) => <[R; 3]>::read(node).map(Self::Constant),
+            DeValue::Float(_) | DeValue::Integer(_) => R::read(node).map(|x| Self::Constant([x; 3])),
             DeValue::String(s) if s.starts_with('#') => {
                 let rgb = hex(s).ok_or_else(|| mismatch::<Self>(node))?;
-                Ok(Self::Constant(rgb.map(R::from_fraction)))
+                Ok(Self::Constant(rgb.map(R::of)))
             }
-            DeValue::String(_) => {
-                let factor = [R::from_fraction(1.0); 3];
-                Ok(Self::Textured(Textured { texture: At::read(node)?, factor, uv_set: 0 }))
-            }
+            DeValue::String(_) => Ok(Self::Varying(TexturedColor {
+                texture: Some(At::read(node)?),
+                factor: At::nowhere(Each([NonNegative(1.0); 3])),
+                vertex_colors: None,
+                lookup: Lookup::plain(),
+            })),
             DeValue::Table(_) => {
-                let t = TexturedColor::read(node)?;
-                let factor = match t.factor {
-                    None => [R::from_fraction(1.0); 3],
-                    Some(Grey(rgb)) => rgb.map(|x| R::from_fraction(x.0)),
-                };
-                Ok(Self::Textured(Textured { texture: t.texture, factor, uv_set: t.uv_set }))
+                let table = TexturedColor::read(node)?;
+                let factor = &table.factor;
+                // Without a texture it is the colour itself, with the range of one.
+                if table.texture.is_none() && factor.value.0.iter().any(|x| !R::contains(x.0)) {
+                    return Err(Fault::new(&factor.at, format!("`factor` without a texture: expected {}", R::one())));
+                }
+                Ok(Self::Varying(table))
             }
             _ => Err(mismatch::<Self>(node)),
         }
@@ -150,6 +138,15 @@ impl<R: Channel> Read for Color<R> {
     }
 }
 
+impl<R: Channel> Write for Color<R> {
+    fn text(&self) -> String {
+        match self {
+            Self::Constant(rgb) => Each(*rgb).text(),
+            Self::Varying(table) => table.text(),
+        }
+    }
+}
+
 /// `#rrggbb` in sRGB to linear RGB.
 fn hex(s: &str) -> Option<[f32; 3]> {
     let digits = s.strip_prefix('#').filter(|d| d.len() == 6 && d.bytes().all(|b| b.is_ascii_hexdigit()))?;
@@ -162,7 +159,7 @@ fn hex(s: &str) -> Option<[f32; 3]> {
 /// A number in [0, 1], the name of a texture (its red channel), or a table `{ texture = "name", channel = "g" }`.
 #[derive(Clone, Debug)]
 pub(super) enum Scalar {
-    /// The same everywhere.
+    /// A constant.
     Constant(f32),
     /// From a texture.
     Textured(TexturedScalar),
@@ -176,7 +173,7 @@ impl Read for Scalar {
                 texture: At::read(node)?,
                 factor: NonNegative(1.0),
                 channel: ChannelName(0),
-                uv_set: 0,
+                lookup: Lookup::plain(),
             })),
             DeValue::Table(_) => TexturedScalar::read(node).map(Self::Textured),
             _ => Err(mismatch::<Self>(node)),
@@ -194,22 +191,63 @@ impl Read for Scalar {
     }
 }
 
+impl Write for Scalar {
+    fn text(&self) -> String {
+        match self {
+            Self::Constant(x) => Fraction(*x).text(),
+            Self::Textured(table) => table.text(),
+        }
+    }
+}
+
 impl<R: Channel> Color<R> {
+    /// White.
+    pub(super) fn one_everywhere() -> Self {
+        Self::Constant([R::of(1.0); 3])
+    }
+
     /// The parameter, with its texture looked up.
     pub(super) fn build(&self, b: &mut Builder<'_>) -> Result<ColorParam, Fault> {
+        self.param(false, b)
+    }
+
+    /// The parameter, by default times the vertex colour of meshes that have one.
+    pub(super) fn build_base(&self, b: &mut Builder<'_>) -> Result<ColorParam, Fault> {
+        self.param(true, b)
+    }
+
+    fn param(&self, vertex_color: bool, b: &mut Builder<'_>) -> Result<ColorParam, Fault> {
         Ok(match self {
-            Self::Constant(rgb) => ColorParam::constant(rgb.map(R::get)),
-            Self::Textured(t) => ColorParam {
-                factor: t.factor.map(R::get),
-                texture: Some(b.texture(&t.texture, t.uv_set, true)?),
-                vertex_color: false,
+            Self::Constant(rgb) => ColorParam { factor: rgb.map(R::get), texture: None, vertex_color },
+            Self::Varying(t) => ColorParam {
+                factor: t.factor.value.0.map(|x| x.0),
+                texture: t.texture.as_ref().map(|name| b.texture(name, &t.lookup, true)).transpose()?,
+                vertex_color: t.vertex_colors.unwrap_or(vertex_color),
             },
         })
     }
 
-    /// The parameter, times the vertex colour of meshes that have one.
-    pub(super) fn build_base(&self, b: &mut Builder<'_>) -> Result<ColorParam, Fault> {
-        Ok(ColorParam { vertex_color: true, ..self.build(b)? })
+    /// The inverse of [`Self::build`].
+    pub(super) fn of(param: &ColorParam, names: &Names) -> Self {
+        Self::of_param(param, false, names)
+    }
+
+    /// The inverse of [`Self::build_base`].
+    pub(super) fn of_base(param: &ColorParam, names: &Names) -> Self {
+        Self::of_param(param, true, names)
+    }
+
+    fn of_param(param: &ColorParam, vertex_color: bool, names: &Names) -> Self {
+        let ColorParam { factor, texture, vertex_color: varies } = param;
+        if texture.is_none() && *varies == vertex_color {
+            return Self::Constant(factor.map(R::of));
+        }
+        Self::Varying(TexturedColor {
+            texture: texture.map(|t| names.texture(&t)),
+            factor: At::nowhere(Each(factor.map(NonNegative))),
+            vertex_colors: (*varies != vertex_color).then_some(*varies),
+            lookup: texture.map_or(Lookup::plain(), |t| Lookup::of(&t)),
+        })
     }
 }
 
@@ -220,8 +258,21 @@ impl Scalar {
             Self::Constant(x) => ScalarParam::constant(*x),
             Self::Textured(t) => ScalarParam {
                 factor: t.factor.0,
-                texture: Some((b.texture(&t.texture, t.uv_set, false)?, t.channel.0)),
+                texture: Some((b.texture(&t.texture, &t.lookup, false)?, t.channel.0)),
             },
         })
+    }
+
+    /// The inverse of [`Self::build`].
+    pub(super) fn of(param: &ScalarParam, names: &Names) -> Self {
+        match param.texture {
+            None => Self::Constant(param.factor),
+            Some((texture, channel)) => Self::Textured(TexturedScalar {
+                texture: names.texture(&texture),
+                factor: NonNegative(param.factor),
+                channel: ChannelName(channel),
+                lookup: Lookup::of(&texture),
+            }),
+        }
     }
 }

@@ -3,8 +3,10 @@
 
 use super::read::{Fault, Node, Read, list, mismatch, read_key, suggest};
 use super::schema::{Alternative, Defs};
+use super::write::Write;
 use ::toml::de::{DeTable, DeValue};
 use serde_json::Value as Json;
+use std::collections::HashMap;
 use std::ops::Range;
 
 /// Declares a table: `keys! { /// about struct Name { /// about key: Type = default, ..part: Part, } }`.
@@ -56,6 +58,23 @@ macro_rules! keys {
                     },)*
                     $($part: <$Part as $crate::desc::toml::keys::Keys>::take(table)?,)*
                 })
+            }
+
+            #[allow(unused_variables, reason = "keys and parts are optional")]
+            fn each(&self, visit: &mut dyn FnMut(&'static str, &dyn $crate::desc::toml::write::Write)) {
+                $({
+                    let value: &dyn $crate::desc::toml::write::Write = &self.$key;
+                    #[allow(unused_mut, unused_assignments, reason = "the default is optional")]
+                    let mut is_default = value.is_omitted();
+                    $({
+                        let default: $ty = $default;
+                        is_default = is_default || $crate::desc::toml::write::Write::equals(&self.$key, &default);
+                    })?
+                    if !is_default {
+                        visit(stringify!($key), value);
+                    }
+                })*
+                $($crate::desc::toml::keys::Keys::each(&self.$part, visit);)*
             }
 
             #[allow(unused_mut, unused_variables, reason = "keys and parts are optional")]
@@ -119,6 +138,17 @@ macro_rules! one_of {
                 Err($crate::desc::toml::read::Fault::new(&table.at, "`type` is not known"))
             }
 
+            fn each(&self, visit: &mut dyn FnMut(&'static str, &dyn $crate::desc::toml::write::Write)) {
+                match self {
+                    $(Self::$Variant(table) => {
+                        if $default != Some($word) {
+                            visit("type", &String::from($word));
+                        }
+                        $crate::desc::toml::keys::Keys::each(table, visit);
+                    })+
+                }
+            }
+
             fn alternatives(
                 defs: &mut $crate::desc::toml::schema::Defs,
             ) -> Vec<$crate::desc::toml::schema::Alternative> {
@@ -143,6 +173,8 @@ pub(super) trait Keys: Sized {
     fn names(table: &Table<'_>, names: &mut Vec<&'static str>) -> Result<(), Fault>;
     /// Reads the table, whose keys are known.
     fn take(table: &Table<'_>) -> Result<Self, Fault>;
+    /// Visits its keys in order, without those that are left out or have their defaults.
+    fn each(&self, visit: &mut dyn FnMut(&'static str, &dyn Write));
     /// Its keys, for the schema: one list for each `type`.
     fn alternatives(defs: &mut Defs) -> Vec<Alternative>;
 }
@@ -230,7 +262,30 @@ impl<K: Keys> Read for K {
 
 /// Tables by name, `[material.white]`, in the order of the file.
 #[derive(Clone, Debug)]
-pub(super) struct Named<T>(pub(super) Vec<Entry<T>>);
+pub(super) struct Named<T> {
+    /// In the order of the file.
+    pub(super) entries: Vec<Entry<T>>,
+    /// The number of each name.
+    numbers: HashMap<String, usize>,
+}
+
+impl<T> Named<T> {
+    fn new(entries: Vec<Entry<T>>) -> Self {
+        let numbers = entries.iter().enumerate().map(|(i, entry)| (entry.name.clone(), i)).collect();
+        Self { entries, numbers }
+    }
+
+    /// Tables that were not read.
+    pub(super) fn of(tables: impl IntoIterator<Item = (String, T)>) -> Self {
+        let entry = |(name, value)| Entry { name, at: 0..0, table: 0..0, value };
+        Self::new(tables.into_iter().map(entry).collect())
+    }
+
+    /// The number of the table of this name.
+    pub(super) fn number(&self, name: &str) -> Option<usize> {
+        self.numbers.get(name).copied()
+    }
+}
 
 /// One of them.
 #[derive(Clone, Debug)]
@@ -239,6 +294,8 @@ pub(super) struct Entry<T> {
     pub(super) name: String,
     /// Where the name stands.
     pub(super) at: Range<usize>,
+    /// Where the table stands.
+    pub(super) table: Range<usize>,
     /// The table.
     pub(super) value: T,
 }
@@ -251,14 +308,15 @@ impl<T: Read> Read for Named<T> {
             entries.push(Entry {
                 name: name.get_ref().to_string(),
                 at: name.span(),
+                table: node.span(),
                 value: read_key(name.get_ref(), node)?,
             });
         }
         entries.sort_by_key(|e| e.at.start);
-        Ok(Self(entries))
+        Ok(Self::new(entries))
     }
     fn absent() -> Option<Self> {
-        Some(Self(Vec::new()))
+        Some(Self::new(Vec::new()))
     }
     fn one() -> String {
         format!("{} by name", T::many())

@@ -3,8 +3,11 @@
 use super::build::Builder;
 use super::color::{Reflectance, Scalar};
 use super::keys::keys;
+use super::lookup::TextureValue;
 use super::normal_map::NormalMapValue;
-use super::read::{At, Fault, Number};
+use super::number::Angle;
+use super::read::Fault;
+use super::writer::Names;
 use crate::desc::{Anisotropy, Clearcoat, Layers, Sheen};
 
 keys! {
@@ -13,9 +16,9 @@ keys! {
         /// Strength of the anisotropy in [0, 1], a number or a texture: GGX alpha along the direction is mix(alpha, 1, strength²). Default 0.
         anisotropy: Option<Scalar>,
         /// Angle from the tangent to that direction in degrees. Default 0.
-        anisotropy_rotation: Number = Number(0.0),
-        /// Name of a texture of directions: 2 rg − 1 along the tangent and the bitangent.
-        anisotropy_direction: Option<At<String>>,
+        anisotropy_rotation: Angle = Angle(0.0),
+        /// Texture of directions, its name or { texture = "name", uv_set = 1 }: 2 rg − 1 along the tangent and the bitangent.
+        anisotropy_direction: Option<TextureValue>,
         /// Colour of the sheen, each channel in [0, 1]. Default: none.
         sheen_color: Option<Reflectance>,
         /// Perceptual roughness of the sheen in [0, 1], a number or a texture. Default 0.5.
@@ -34,8 +37,8 @@ impl LayersTable {
     pub(super) fn build(&self, b: &mut Builder<'_>) -> Result<Layers, Fault> {
         let mut layers = Layers::default();
         if let Some(strength) = &self.anisotropy {
-            let direction = self.anisotropy_direction.as_ref().map(|name| b.texture(name, 0, false)).transpose()?;
-            let rotation = self.anisotropy_rotation.0.to_radians();
+            let direction = self.anisotropy_direction.as_ref().map(|texture| texture.build(b)).transpose()?;
+            let rotation = self.anisotropy_rotation.0;
             layers.anisotropy = Some(Anisotropy { strength: strength.build(b)?, rotation, direction });
         }
         if let Some(color) = &self.sheen_color {
@@ -50,5 +53,21 @@ impl LayersTable {
             layers.clearcoat = Some(Clearcoat { factor, roughness, normal_map });
         }
         Ok(layers)
+    }
+
+    /// The inverse of [`Self::build`].
+    pub(super) fn of(layers: &Layers, names: &Names) -> Self {
+        let Layers { anisotropy, sheen, clearcoat } = layers;
+        let coat_map = clearcoat.and_then(|coat| coat.normal_map);
+        Self {
+            anisotropy: anisotropy.map(|a| Scalar::of(&a.strength, names)),
+            anisotropy_rotation: Angle(anisotropy.map_or(0.0, |a| a.rotation)),
+            anisotropy_direction: anisotropy.and_then(|a| a.direction).map(|t| TextureValue::of(&t, names)),
+            sheen_color: sheen.map(|s| Reflectance::of(&s.color, names)),
+            sheen_roughness: sheen.map_or(Scalar::Constant(0.5), |s| Scalar::of(&s.roughness, names)),
+            clearcoat: clearcoat.map(|coat| Scalar::of(&coat.factor, names)),
+            clearcoat_roughness: clearcoat.map_or(Scalar::Constant(0.0), |c| Scalar::of(&c.roughness, names)),
+            clearcoat_normal_map: coat_map.map(|map| NormalMapValue::of(&map, names)),
+        }
     }
 }

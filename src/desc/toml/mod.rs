@@ -41,36 +41,61 @@
 //! spp = 64
 //! ```
 //!
-//! Every key is declared once, in the file of its table: `scene` (the whole), `camera`, `material`, `texture`, `color`,
-//! `shape`, `place` (translate, rotate, scale, matrix), `light` (and environment; `sky`). The declarations read the tables,
-//! refuse unknown keys, and become the JSON Schema of [`schema`], which holds every key with its unit and default.
+//! Every key is declared once, in the file of its table (`scene` has the whole). A declaration reads the table, refuses
+//! unknown keys, becomes the JSON Schema of [`schema()`], which holds every key with its unit and default, and is written
+//! back by [`write()`]: each table has a `build`, which makes a part of the scene, and its inverse `of`.
 //! Lengths are metres, angles degrees, colours linear RGB (BT.709). A hyphen in a key is read as an underscore. Files
 //! are looked for below the scene's folder and nowhere else.
+//!
+//! | file | what |
+//! | --- | --- |
+//! | `keys`, `read`, `number`, `short`, `words` | declarations of tables, and the values that stand in them |
+//! | `schema` | the JSON Schema |
+//! | `write`, `writer`, `beside` | values, scenes and their files as text |
+//! | `build`, `files`, `budget` | tables → scene: names become numbers, files are read, groups are placed, within bounds |
+//! | the others | a table or a few each |
 
+mod beside;
+mod budget;
 mod build;
 mod camera;
 mod color;
-mod derived;
+mod conductor;
+mod environment;
+mod files;
 mod film;
+mod gltf_models;
+mod image;
 mod interior;
 mod keys;
 mod layers;
 mod light;
+mod lookup;
 mod material;
 mod metals;
+mod mix;
 mod normal_map;
+mod number;
 mod place;
+mod profile;
 mod read;
+mod render;
+mod roughness;
 mod scene;
 mod schema;
 mod shape;
+mod short;
 mod sky;
 mod texture;
+mod words;
+mod write;
+mod writer;
 
 pub use schema::schema;
+pub use writer::{Written, to_text, write};
 
 use self::read::{Fault, Read};
-use super::files::{self, Folder};
+use super::files::{self as scene_files, Folder};
 use super::{Error, Options, Scene};
 use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue};
@@ -83,7 +108,7 @@ pub fn read(path: &Path) -> Result<Scene, Error> {
 
 /// Reads a scene file; the options hold for the glTF files that it places.
 pub fn read_with(path: &Path, options: &Options) -> Result<Scene, Error> {
-    let bytes = files::read(path)?;
+    let bytes = scene_files::read(path)?;
     let text = String::from_utf8(bytes).map_err(|e| {
         let line = e.as_bytes()[..e.utf8_error().valid_up_to()].iter().filter(|b| **b == b'\n').count() + 1;
         Error::invalid(path, format!("{line}:1"), "is not UTF-8 text")

@@ -1,12 +1,13 @@
-//! Normal maps: a texture's name, or a table.
+//! Normal maps.
 
 use super::build::Builder;
 use super::keys::keys;
-use super::read::{At, Fault, Node, Number, Read, mismatch};
-use super::schema::Defs;
+use super::lookup::Lookup;
+use super::number::Number;
+use super::read::{At, Fault};
+use super::short::{NameOr, OfTexture};
+use super::writer::Names;
 use crate::desc::NormalMap;
-use ::toml::de::DeValue;
-use serde_json::{Value as Json, json};
 
 keys! {
     /// A tangent-space normal map.
@@ -15,31 +16,17 @@ keys! {
         texture: At<String>,
         /// Factor on the x and y of the normal. Default 1.
         scale: Number = Number(1.0),
-        /// Which of the mesh's UV sets: 0 or 1. Default 0.
-        uv_set: u32 = 0,
+        ..lookup: Lookup,
     }
 }
 
 /// A texture's name, or a table.
-#[derive(Clone, Debug)]
-pub(super) struct NormalMapValue(pub(super) NormalMapTable);
+pub(super) type NormalMapValue = NameOr<NormalMapTable>;
 
-impl Read for NormalMapValue {
-    fn read(node: &Node<'_>) -> Result<Self, Fault> {
-        match node.get_ref() {
-            DeValue::String(_) => Ok(Self(NormalMapTable { texture: At::read(node)?, scale: Number(1.0), uv_set: 0 })),
-            DeValue::Table(_) => NormalMapTable::read(node).map(Self),
-            _ => Err(mismatch::<Self>(node)),
-        }
-    }
-    fn one() -> String {
-        "a texture's name or { texture = …, scale = … }".into()
-    }
-    fn many() -> String {
-        "normal maps".into()
-    }
-    fn schema(defs: &mut Defs) -> Json {
-        json!({ "anyOf": [{ "type": "string" }, defs.reference::<NormalMapTable>()] })
+impl OfTexture for NormalMapTable {
+    const KEY: &'static str = "scale";
+    fn of_texture(texture: At<String>) -> Self {
+        Self { texture, scale: Number(1.0), lookup: Lookup::plain() }
     }
 }
 
@@ -47,6 +34,13 @@ impl NormalMapValue {
     /// The map.
     pub(super) fn build(&self, b: &mut Builder<'_>) -> Result<NormalMap, Fault> {
         let Self(map) = self;
-        Ok(NormalMap { texture: b.texture(&map.texture, map.uv_set, false)?, scale: map.scale.0 })
+        Ok(NormalMap { texture: b.texture(&map.texture, &map.lookup, false)?, scale: map.scale.0 })
+    }
+
+    /// The inverse of [`Self::build`].
+    pub(super) fn of(map: &NormalMap, names: &Names) -> Self {
+        let NormalMap { texture, scale } = map;
+        let lookup = Lookup::of(texture);
+        NameOr(NormalMapTable { texture: names.texture(texture), scale: Number(*scale), lookup })
     }
 }

@@ -1,12 +1,16 @@
 //! Where things stand: transformations as written.
 
 use super::keys::keys;
-use super::read::{At, Fault, Node, Number, Read, mismatch};
+use super::number::{Angle, Number};
+use super::read::{At, Fault, Node, Read, mismatch};
 use super::schema::Defs;
+use super::short::Each;
+use super::write::{Write, array};
+use crate::desc::mesh_check::unit_vector;
 use crate::math::Transform;
-use ::toml::de::DeValue;
-use glam::{Mat4, Quat, Vec3};
+use glam::{Mat3, Mat4, Quat, Vec3};
 use serde_json::{Value as Json, json};
+use std::ops::Range;
 
 keys! {
     /// Where a thing stands.
@@ -44,48 +48,29 @@ keys! {
         /// Axis, of any length but 0.
         axis: At<Vec3>,
         /// Angle in degrees, counter-clockwise as seen against the axis.
-        angle: Number,
+        angle: Angle,
     }
 }
 
 impl Rotation {
     /// As a unit quaternion.
     pub(super) fn quat(&self) -> Result<Quat, Fault> {
-        Ok(Quat::from_axis_angle(unit(&self.axis)?, self.angle.0.to_radians()))
+        Ok(Quat::from_axis_angle(unit(&self.axis)?, self.angle.0))
     }
 }
 
-/// The unit vector along a written one.
+/// The unit vector along a written one, which stays as it is where it is one already.
 pub(super) fn unit(v: &At<Vec3>) -> Result<Vec3, Fault> {
-    let unit = v.value.as_dvec3().try_normalize().map(|v| v.as_vec3());
+    let unit = unit_vector(v.value);
     unit.ok_or_else(|| Fault::new(&v.at, "found [0, 0, 0], expected a direction"))
 }
 
 /// A scale.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Scale(Vec3);
-
-impl Read for Scale {
-    fn read(node: &Node<'_>) -> Result<Self, Fault> {
-        match node.get_ref() {
-            DeValue::Array(_) => Vec3::read(node).map(Self),
-            _ => Number::read(node).map(|x| Self(Vec3::splat(x.0))).map_err(|_| mismatch::<Self>(node)),
-        }
-    }
-    fn one() -> String {
-        "a number or an array of 3 numbers".into()
-    }
-    fn many() -> String {
-        "scales".into()
-    }
-    fn schema(defs: &mut Defs) -> Json {
-        json!({ "anyOf": [Number::schema(defs), Vec3::schema(defs)] })
-    }
-}
+type Scale = Each<Number, 3>;
 
 /// A matrix, by rows.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Matrix(Mat4);
+pub(super) struct Matrix(pub(super) Mat4);
 
 impl Read for Matrix {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
@@ -111,9 +96,54 @@ impl Read for Matrix {
     }
 }
 
+impl Write for Matrix {
+    fn text(&self) -> String {
+        let rows = self.0.transpose();
+        array(&[rows.x_axis, rows.y_axis, rows.z_axis])
+    }
+}
+
+/// A rotation as a matrix of three rows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows(pub(super) Mat3);
+
+impl Rows {
+    /// The matrix at `at`, if it is a rotation.
+    pub(super) fn rotation(&self, at: &Range<usize>) -> Result<Mat3, Fault> {
+        if is_rotation(self.0) { Ok(self.0) } else { Err(Fault::new(at, "its three rows are not a rotation's")) }
+    }
+}
+
+/// Whether the columns are a right-handed orthonormal basis, as far as f32 tells.
+pub(super) fn is_rotation(m: Mat3) -> bool {
+    (m.transpose() * m).abs_diff_eq(Mat3::IDENTITY, 1e-4) && m.determinant() > 0.0
+}
+
+impl Read for Rows {
+    fn read(node: &Node<'_>) -> Result<Self, Fault> {
+        let rows = <[[Number; 3]; 3]>::read(node)?.map(|row| row.map(|x| x.0));
+        Ok(Self(Mat3::from_cols_array_2d(&rows).transpose()))
+    }
+    fn one() -> String {
+        "three rows of three numbers".into()
+    }
+    fn many() -> String {
+        "matrices".into()
+    }
+    fn schema(defs: &mut Defs) -> Json {
+        <[[Number; 3]; 3]>::schema(defs)
+    }
+}
+
+impl Write for Rows {
+    fn text(&self) -> String {
+        array(&self.0.transpose().to_cols_array_2d().map(|row| row.map(Number)))
+    }
+}
+
 impl Place {
     /// Object → parent. `at` is where a singular one is reported.
-    pub(super) fn matrix(&self, at: &std::ops::Range<usize>) -> Result<Mat4, Fault> {
+    pub(super) fn matrix(&self, at: &Range<usize>) -> Result<Mat4, Fault> {
         let Self { translate, rotate, scale, matrix, transform } = self;
         let simple = translate.is_some() || rotate.is_some() || scale.is_some();
         let (at, product) = match (matrix, transform) {
@@ -128,7 +158,7 @@ impl Place {
             (None, None) => {
                 let scale_at = scale.as_ref().map_or(at, |s| &s.at);
                 let rotate = rotate.as_ref().map_or(Ok(Quat::IDENTITY), Rotation::quat)?;
-                let scale = scale.as_ref().map_or(Vec3::ONE, |s| s.value.0);
+                let scale = scale.as_ref().map_or(Vec3::ONE, |s| scaling(&s.value));
                 (scale_at, Mat4::from_scale_rotation_translation(scale, rotate, translate.unwrap_or(Vec3::ZERO)))
             }
             _ => {
@@ -138,22 +168,40 @@ impl Place {
         };
         invertible(at, product)
     }
+
+    /// The inverse of [`Self::matrix`]: scale and translation where that is all, else the matrix.
+    pub(super) fn of(m: Mat4) -> Self {
+        let mut place = Self { translate: None, rotate: None, scale: None, matrix: None, transform: None };
+        let (scale, translate) = (Vec3::new(m.x_axis.x, m.y_axis.y, m.z_axis.z), m.w_axis.truncate());
+        let plain = Mat4::from_scale_rotation_translation(scale, Quat::IDENTITY, translate);
+        if plain.to_cols_array().map(f32::to_bits) == m.to_cols_array().map(f32::to_bits) {
+            place.translate = translate.to_array().iter().any(|x| x.to_bits() != 0).then_some(translate);
+            place.scale = (scale != Vec3::ONE).then(|| At::nowhere(Each(scale.to_array().map(Number))));
+        } else {
+            place.matrix = Some(At::nowhere(Matrix(m)));
+        }
+        place
+    }
 }
 
 impl Step {
-    fn matrix(&self, at: &std::ops::Range<usize>) -> Result<Mat4, Fault> {
+    fn matrix(&self, at: &Range<usize>) -> Result<Mat4, Fault> {
         match self {
             Self { translate: Some(t), rotate: None, scale: None, matrix: None } => Ok(Mat4::from_translation(*t)),
             Self { translate: None, rotate: Some(r), scale: None, matrix: None } => r.quat().map(Mat4::from_quat),
-            Self { translate: None, rotate: None, scale: Some(s), matrix: None } => Ok(Mat4::from_scale(s.0)),
+            Self { translate: None, rotate: None, scale: Some(s), matrix: None } => Ok(Mat4::from_scale(scaling(s))),
             Self { translate: None, rotate: None, scale: None, matrix: Some(m) } => Ok(m.0),
             _ => Err(Fault::new(at, "a step must have exactly one of `translate`, `rotate`, `scale` and `matrix`")),
         }
     }
 }
 
+fn scaling(scale: &Scale) -> Vec3 {
+    scale.0.map(|x| x.0).into()
+}
+
 /// The matrix, if it can be inverted.
-pub(super) fn invertible(at: &std::ops::Range<usize>, m: Mat4) -> Result<Mat4, Fault> {
+pub(super) fn invertible(at: &Range<usize>, m: Mat4) -> Result<Mat4, Fault> {
     match Transform::from_mat4(m) {
         Some(_) => Ok(m),
         None => Err(Fault::new(at, "the transformation cannot be inverted: it flattens or overflows")),

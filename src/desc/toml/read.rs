@@ -1,10 +1,10 @@
 //! Values of a TOML file, with their places, to numbers, words and lists.
 
 use super::schema::Defs;
+use super::write::{Write, array};
 use crate::desc::{Error, ErrorKind};
 use ::toml::Spanned;
 use ::toml::de::DeValue;
-use glam::{Vec2, Vec3};
 use serde_json::{Value as Json, json};
 use std::ops::Range;
 use std::path::Path;
@@ -34,7 +34,7 @@ impl Fault {
         Self { at: at.clone(), message: format!("{place}{}", e.message), kind: e.kind }
     }
 
-    /// The same, said of the value of `key`.
+    /// This fault, said of the value of `key`.
     pub(super) fn under(self, key: &str) -> Self {
         Self { message: format!("`{key}`: {}", self.message), ..self }
     }
@@ -57,8 +57,15 @@ pub(super) struct At<T> {
     pub(super) value: T,
 }
 
+impl<T> At<T> {
+    /// A value that was not read: a default, or what is to be written.
+    pub(super) fn nowhere(value: T) -> Self {
+        Self { at: 0..0, value }
+    }
+}
+
 /// What can be read from a value, and how a JSON Schema says it.
-pub(super) trait Read: Sized {
+pub(super) trait Read: Write + Sized {
     /// Reads one value.
     fn read(node: &Node<'_>) -> Result<Self, Fault>;
     /// The value of a key that is left out; `None`: the key must be there.
@@ -102,11 +109,17 @@ pub(super) fn unexpected(node: &Node<'_>, expected: &str) -> Fault {
 
 /// The nearest of the known words, as the end of a sentence; all of them where none is near.
 pub(super) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) -> String {
+    /// Longest word whose distance from others is looked for, as that takes the product of both lengths.
+    const LONGEST: usize = 64;
+    /// Most words that a message lists.
+    const MOST: usize = 32;
     let known: Vec<_> = known.into_iter().collect();
-    let near = known.iter().map(|k| (strsim::damerau_levenshtein(word, k), k)).min();
+    let comparable = known.iter().filter(|k| word.len().max(k.len()) <= LONGEST);
+    let near = comparable.map(|k| (strsim::damerau_levenshtein(word, k), k)).min();
     match near {
         Some((distance, k)) if distance <= 1 + word.chars().count() / 3 => format!("did you mean `{k}`?"),
         _ if known.is_empty() => "there is none".into(),
+        _ if known.len() > MOST => format!("there are {}, none of a similar name", known.len()),
         _ => format!("expected one of {}", list(&known)),
     }
 }
@@ -114,104 +127,6 @@ pub(super) fn suggest<'a>(word: &str, known: impl IntoIterator<Item = &'a str>) 
 /// `a`, `b`, `c`.
 pub(super) fn list(words: &[&str]) -> String {
     words.iter().map(|w| format!("`{w}`")).collect::<Vec<_>>().join(", ")
-}
-
-/// A real number, infinite and NaN included.
-fn number(node: &Node<'_>) -> Option<f64> {
-    match node.get_ref() {
-        DeValue::Float(f) => f.as_str().parse().ok(),
-        DeValue::Integer(i) => i128::from_str_radix(i.as_str(), i.radix()).ok().map(|i| i as f64),
-        _ => None,
-    }
-}
-
-/// Defines a number with a range.
-macro_rules! numbers {
-    ($($(#[doc = $doc:literal])+ $Name:ident: $one:literal, $many:literal, |$x:ident| $valid:expr, $schema:tt;)+) => {$(
-        $(#[doc = $doc])+
-        #[derive(Clone, Copy, Debug, PartialEq)]
-        pub(super) struct $Name(pub(super) f32);
-
-        impl Read for $Name {
-            fn read(node: &Node<'_>) -> Result<Self, Fault> {
-                let $x = number(node).ok_or_else(|| mismatch::<Self>(node))? as f32;
-                if $x.is_finite() && $valid { Ok(Self($x)) } else { Err(mismatch::<Self>(node)) }
-            }
-            fn one() -> String {
-                $one.into()
-            }
-            fn many() -> String {
-                $many.into()
-            }
-            fn schema(_: &mut Defs) -> Json {
-                json!($schema)
-            }
-        }
-    )+};
-}
-
-numbers! {
-    /// Any number.
-    Number: "a finite number", "finite numbers", |x| true, { "type": "number" };
-    /// x > 0.
-    Positive: "a number > 0", "numbers > 0", |x| x > 0.0, { "type": "number", "exclusiveMinimum": 0 };
-    /// x ≥ 0.
-    NonNegative: "a number ≥ 0", "numbers ≥ 0", |x| x >= 0.0, { "type": "number", "minimum": 0 };
-    /// 0 ≤ x ≤ 1.
-    Fraction: "a number in [0, 1]", "numbers in [0, 1]", |x| (0.0..=1.0).contains(&x), { "type": "number", "minimum": 0, "maximum": 1 };
-    /// 0° < x < 180°.
-    ViewAngle: "an angle between 0 and 180 degrees", "angles between 0 and 180 degrees", |x| x > 0.0 && x < 180.0, { "type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 180 };
-    /// 0° ≤ x ≤ 90°.
-    HalfAngle: "an angle from 0 to 90 degrees", "angles from 0 to 90 degrees", |x| (0.0..=90.0).contains(&x), { "type": "number", "minimum": 0, "maximum": 90 };
-}
-
-/// Implements [`Read`] for integers.
-macro_rules! integers {
-    ($($T:ty: $min:expr, $max:expr, $one:literal, $many:literal;)+) => {$(
-        impl Read for $T {
-            fn read(node: &Node<'_>) -> Result<Self, Fault> {
-                let DeValue::Integer(i) = node.get_ref() else { return Err(mismatch::<Self>(node)) };
-                let value = <$T>::from_str_radix(i.as_str(), i.radix()).map_err(|_| mismatch::<Self>(node))?;
-                Ok(value)
-            }
-            fn one() -> String {
-                $one.into()
-            }
-            fn many() -> String {
-                $many.into()
-            }
-            fn schema(_: &mut Defs) -> Json {
-                json!({ "type": "integer", "minimum": $min, "maximum": $max })
-            }
-        }
-    )+};
-}
-
-integers! {
-    u32: 0, u32::MAX, "a whole number ≥ 0", "whole numbers ≥ 0";
-    i32: -2_147_483_648, i32::MAX, "a whole number", "whole numbers";
-}
-
-/// A side of an image in pixels.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct PixelCount(pub(super) u32);
-
-impl Read for PixelCount {
-    fn read(node: &Node<'_>) -> Result<Self, Fault> {
-        match u32::read(node) {
-            Ok(n @ 1..=65_536) => Ok(Self(n)),
-            _ => Err(mismatch::<Self>(node)),
-        }
-    }
-    fn one() -> String {
-        "a whole number from 1 to 65536".into()
-    }
-    fn many() -> String {
-        "whole numbers from 1 to 65536".into()
-    }
-    fn schema(_: &mut Defs) -> Json {
-        json!({ "type": "integer", "minimum": 1, "maximum": 65_536 })
-    }
 }
 
 impl Read for bool {
@@ -226,6 +141,12 @@ impl Read for bool {
     }
     fn schema(_: &mut Defs) -> Json {
         json!({ "type": "boolean" })
+    }
+}
+
+impl Write for bool {
+    fn text(&self) -> String {
+        self.to_string()
     }
 }
 
@@ -244,6 +165,12 @@ impl Read for String {
     }
 }
 
+impl Write for String {
+    fn text(&self) -> String {
+        super::write::string(self)
+    }
+}
+
 impl<T: Read> Read for At<T> {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
         Ok(Self { at: node.span(), value: T::read(node)? })
@@ -256,6 +183,21 @@ impl<T: Read> Read for At<T> {
     }
     fn schema(defs: &mut Defs) -> Json {
         T::schema(defs)
+    }
+}
+
+impl<T: Write> Write for At<T> {
+    fn text(&self) -> String {
+        self.value.text()
+    }
+    fn is_omitted(&self) -> bool {
+        self.value.is_omitted()
+    }
+    fn body(&self) -> Option<String> {
+        self.value.body()
+    }
+    fn section(&self, key: &str, out: &mut String) {
+        self.value.section(key, out);
     }
 }
 
@@ -277,6 +219,18 @@ impl<T: Read> Read for Option<T> {
     }
 }
 
+impl<T: Write> Write for Option<T> {
+    fn text(&self) -> String {
+        self.as_ref().map(T::text).unwrap_or_default()
+    }
+    fn is_omitted(&self) -> bool {
+        self.is_none()
+    }
+    fn section(&self, key: &str, out: &mut String) {
+        self.iter().for_each(|value| value.section(key, out));
+    }
+}
+
 impl<T: Read, const N: usize> Read for [T; N] {
     fn read(node: &Node<'_>) -> Result<Self, Fault> {
         let wrong = || mismatch::<Self>(node);
@@ -292,6 +246,12 @@ impl<T: Read, const N: usize> Read for [T; N] {
     }
     fn schema(defs: &mut Defs) -> Json {
         json!({ "type": "array", "items": T::schema(defs), "minItems": N, "maxItems": N })
+    }
+}
+
+impl<T: Write, const N: usize> Write for [T; N] {
+    fn text(&self) -> String {
+        array(self)
     }
 }
 
@@ -311,56 +271,17 @@ impl<T: Read> Read for Vec<T> {
     }
 }
 
-/// Reads arrays of numbers as vectors.
-macro_rules! vectors {
-    ($($T:ty, $n:literal;)+) => {$(
-        impl Read for $T {
-            fn read(node: &Node<'_>) -> Result<Self, Fault> {
-                <[Number; $n]>::read(node).map(|v| v.map(|x| x.0).into())
-            }
-            fn one() -> String {
-                <[Number; $n]>::one()
-            }
-            fn many() -> String {
-                <[Number; $n]>::many()
-            }
-            fn schema(defs: &mut Defs) -> Json {
-                <[Number; $n]>::schema(defs)
-            }
-        }
-    )+};
+impl<T: Write> Write for Vec<T> {
+    fn text(&self) -> String {
+        array(self)
+    }
+    fn equals(&self, other: &Self) -> bool {
+        self.len() == other.len() && self.iter().zip(other).all(|(a, b)| a.equals(b))
+    }
+    fn section(&self, key: &str, out: &mut String) {
+        super::write::sections(self, key, out);
+    }
 }
-
-vectors! {
-    Vec2, 2;
-    Vec3, 3;
-}
-
-/// Reads strings as the values of an enum: `words! { Sides: "front" => Sides::Front, …; }`.
-macro_rules! words {
-    ($($T:ty: $($word:literal => $value:expr),+;)+) => {$(
-        impl $crate::desc::toml::read::Read for $T {
-            fn read(node: &$crate::desc::toml::read::Node<'_>) -> Result<Self, $crate::desc::toml::read::Fault> {
-                use $crate::desc::toml::read::{Fault, mismatch, suggest};
-                match node.get_ref().as_str() {
-                    $(Some($word) => Ok($value),)+
-                    Some(other) => Err(Fault::new(&node.span(), format!("unknown value {other:?}; {}", suggest(other, [$($word),+])))),
-                    None => Err(mismatch::<Self>(node)),
-                }
-            }
-            fn one() -> String {
-                format!("one of {}", $crate::desc::toml::read::list(&[$($word),+]))
-            }
-            fn many() -> String {
-                format!("of {}", $crate::desc::toml::read::list(&[$($word),+]))
-            }
-            fn schema(_: &mut $crate::desc::toml::schema::Defs) -> serde_json::Value {
-                serde_json::json!({ "enum": [$($word),+] })
-            }
-        }
-    )+};
-}
-pub(super) use words;
 
 /// What is wrong with the value of a key, said of the key.
 pub(super) fn read_key<T: Read>(key: &str, node: &Node<'_>) -> Result<T, Fault> {

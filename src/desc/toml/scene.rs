@@ -1,12 +1,12 @@
 //! The whole file.
 
-use super::derived::Derived;
 use super::keys::{Named, OneOrMore, keys};
 use super::place::Place;
 use super::read::At;
-use super::{camera::CameraTable, light::EnvironmentTable, light::LightTable, material::MaterialTable};
-use super::{shape::ShapeTable, texture::TextureTable};
-use crate::desc::{Expect, RenderSettings};
+use super::render::{ExpectTable, RenderTable};
+use super::shape::{ShapeKind, ShapeTable};
+use super::{camera::CameraTable, environment::EnvironmentTable, image::ImageTable, light::LightTable};
+use super::{material::MaterialTable, profile::ProfileTable, texture::TextureTable};
 
 keys! {
     /// A scene for Radianza.
@@ -14,25 +14,31 @@ keys! {
         /// Name of the scene. Default: the file's.
         name: Option<String>,
         /// The viewpoint, or several; the first is the default. Without any, the whole scene is framed.
-        camera: OneOrMore<CameraTable>,
+        camera: OneOrMore<At<CameraTable>>,
         /// Materials by name.
         material: Named<MaterialTable>,
+        /// Images by name, for textures and the environment. Files need no name.
+        image: Named<ImageTable>,
         /// Textures by name.
         texture: Named<TextureTable>,
+        /// Geometry by name, for shapes of the type "geometry" to share; of any other type but "file".
+        geometry: Named<ShapeKind>,
         /// Geometry.
         shape: Vec<At<ShapeTable>> = Vec::new(),
         /// Groups of shapes, lights and instances by name, to be placed by instances.
         group: Named<GroupTable>,
         /// Placed groups.
         instance: Vec<At<InstanceTable>> = Vec::new(),
+        /// Measurements by name, for lights of the type "ies". Files need no name.
+        profile: Named<ProfileTable>,
         /// Lights without a surface.
         light: Vec<LightTable> = Vec::new(),
         /// Light from infinity all around.
         environment: Option<At<EnvironmentTable>>,
         /// Render settings, unless the command line says otherwise.
-        render: Option<Derived<RenderSettings>>,
+        render: Option<RenderTable>,
         /// Exact values that the image must agree with, one table or several.
-        expect: OneOrMore<Derived<Expect>>,
+        expect: OneOrMore<At<ExpectTable>>,
     }
 }
 

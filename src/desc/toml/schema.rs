@@ -19,18 +19,6 @@ impl Defs {
         }
         json!({ "$ref": format!("#/$defs/{}", K::NAME) })
     }
-
-    /// The schema of a type that derives it, with its own definitions lifted into these.
-    pub(super) fn derived<T: schemars::JsonSchema>(&mut self) -> Json {
-        let mut schema = schemars::schema_for!(T).to_value();
-        if let Some(object) = schema.as_object_mut() {
-            object.remove("$schema");
-            if let Some(Json::Object(inner)) = object.remove("$defs") {
-                self.0.extend(inner);
-            }
-        }
-        schema
-    }
 }
 
 /// The keys of a table, of one `type`.

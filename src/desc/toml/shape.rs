@@ -1,13 +1,18 @@
 //! `[[shape]]`: geometry, placed.
 
 use super::build::Builder;
-use super::color::Radiance;
+use super::color::{Radiance, Scalar};
 use super::keys::{keys, one_of};
+use super::number::{NonNegative, Positive};
 use super::place::{Place, unit};
-use super::read::{At, Fault, NonNegative, Positive};
+use super::read::{At, Fault, Node, Read};
+use super::schema::Defs;
+use super::write::{Write, array, pairs};
 use crate::desc::{Mesh, Shape, Sides, primitives};
 use crate::math::Frame;
 use glam::{Mat4, Vec2, Vec3, Vec4};
+use serde_json::{Value as Json, json};
+use std::sync::Arc;
 
 keys! {
     /// A shape with a material, somewhere.
@@ -20,6 +25,8 @@ keys! {
         emission: Option<Radiance>,
         /// Which side emits: "front" or "both". Default "front".
         emission_sides: Sides = Sides::Front,
+        /// Share of the surface under a clear coat, which takes some of the emitted light, a number in [0, 1] or a texture. Default: none.
+        emission_coat: Option<Scalar>,
         /// Turns the front to the other side. Default false.
         reversed: bool = false,
         /// Declares that the surface is closed, so that verification looks for holes and leaks. Default false.
@@ -39,6 +46,7 @@ one_of! {
         "box" => BoxShape,
         "mesh" => MeshShape,
         "file" => FileShape,
+        "geometry" => SharedShape,
     } default None
 }
 
@@ -104,15 +112,21 @@ keys! {
     /// Triangles; the front is where their corners run counter-clockwise.
     struct MeshShape {
         /// Vertices [[x, y, z], …] in metres.
-        positions: At<Vec<Vec3>>,
+        positions: Option<At<Vec<Vec3>>>,
         /// Triangles [[a, b, c], …], numbers of vertices from 0. Default: every three vertices are a triangle.
         indices: Option<At<Vec<[u32; 3]>>>,
         /// Shading normals [[x, y, z], …], one a vertex. Default: flat.
-        normals: At<Vec<Vec3>> = At { at: 0..0, value: Vec::new() },
+        normals: Vec<Vec3> = Vec::new(),
+        /// Tangents [[x, y, z, w], …], one a vertex; w is 1, or −1 where the bitangent points the other way. Default: from the texture coordinates.
+        tangents: Vec<Vec4> = Vec::new(),
         /// Texture coordinates [[u, v], …], one a vertex. Default: none.
         uv: Vec<Vec2> = Vec::new(),
-        /// Linear colours [[r, g, b], …], one a vertex: factors on the material's reflectance. Default: none.
-        colors: Vec<[NonNegative; 3]> = Vec::new(),
+        /// Texture coordinates of the second set, as `uv`. Default: none.
+        second_uv: Vec<Vec2> = Vec::new(),
+        /// Linear colours [[r, g, b], …] or with alpha [[r, g, b, a], …], one a vertex: factors on the material's reflectance and opacity. Default: none.
+        colors: Vec<VertexColor> = Vec::new(),
+        /// A .ply file with the whole mesh, below the scene's folder, in place of the keys above.
+        file: Option<At<String>>,
     }
 }
 
@@ -124,8 +138,45 @@ keys! {
     }
 }
 
+keys! {
+    /// Geometry that several shapes share.
+    struct SharedShape {
+        /// Its name among `[geometry.NAME]`.
+        geometry: At<String>,
+    }
+}
+
+/// A vertex colour with or without alpha.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct VertexColor(Vec4);
+
+impl Read for VertexColor {
+    fn read(node: &Node<'_>) -> Result<Self, Fault> {
+        match node.get_ref().as_array().map(|a| a.len()) {
+            Some(4) => <[NonNegative; 4]>::read(node).map(|c| Self(c.map(|x| x.0).into())),
+            _ => <[NonNegative; 3]>::read(node).map(|[r, g, b]| Self(Vec4::new(r.0, g.0, b.0, 1.0))),
+        }
+    }
+    fn one() -> String {
+        <[NonNegative; 3]>::one()
+    }
+    fn many() -> String {
+        <[NonNegative; 3]>::many()
+    }
+    fn schema(defs: &mut Defs) -> Json {
+        json!({ "anyOf": [<[NonNegative; 3]>::schema(defs), <[NonNegative; 4]>::schema(defs)] })
+    }
+}
+
+impl Write for VertexColor {
+    fn text(&self) -> String {
+        let rgba = self.0.to_array().map(NonNegative);
+        if self.0.w == 1.0 { array(&rgba[..3]) } else { array(&rgba) }
+    }
+}
+
 impl ShapeKind {
-    /// The geometry and where it stands in the object's space; `None` for files.
+    /// The geometry and where it stands in the object's space; `None` for files and what is shared.
     pub(super) fn build(
         &self,
         name: &str,
@@ -139,7 +190,9 @@ impl ShapeKind {
                 let axis = s.to.value - s.from;
                 let height = axis.as_dvec3().length() as f32;
                 let to = if s.to.at.is_empty() { at } else { &s.to.at };
-                let direction = unit(&At { at: to.clone(), value: axis })?;
+                // Normalised even where it is nearly of length 1, as the height is divided off.
+                let direction = axis.as_dvec3().try_normalize().map(|d| d.as_vec3());
+                let direction = direction.ok_or_else(|| Fault::new(to, "found [0, 0, 0], expected a direction"))?;
                 (Shape::Cylinder { radius: s.radius.0, height }, along(s.from, direction))
             }
             Self::QuadShape(s) => (Shape::Mesh(b.checked(name, at, s.mesh(at)?)?.into()), Mat4::IDENTITY),
@@ -150,10 +203,16 @@ impl ShapeKind {
                 (Shape::Mesh(b.checked(name, at, primitives::cuboid(s.min.value, s.max))?.into()), Mat4::IDENTITY)
             }
             Self::MeshShape(s) => {
-                let at = s.indices.as_ref().map_or(&s.positions.at, |i| &i.at);
-                (Shape::Mesh(b.checked(name, at, s.mesh()?)?.into()), Mat4::IDENTITY)
+                if let Some(file) = &s.file {
+                    return Ok(Some((Shape::Mesh(s.mesh_of_file(file, b)?), Mat4::IDENTITY)));
+                }
+                let Some(positions) = &s.positions else {
+                    return Err(Fault::new(at, format!("missing key `positions`; expected {}", Vec::<Vec3>::one())));
+                };
+                let at = s.indices.as_ref().map_or(&positions.at, |i| &i.at);
+                (Shape::Mesh(b.checked(name, at, s.mesh(positions)?)?.into()), Mat4::IDENTITY)
             }
-            Self::FileShape(_) => return Ok(None),
+            Self::FileShape(_) | Self::SharedShape(_) => return Ok(None),
         };
         Ok(Some(placed))
     }
@@ -179,23 +238,95 @@ impl QuadShape {
 }
 
 impl MeshShape {
-    fn mesh(&self) -> Result<Mesh, Fault> {
-        let count = self.positions.value.len();
+    fn mesh(&self, positions: &At<Vec<Vec3>>) -> Result<Mesh, Fault> {
+        let count = positions.value.len();
         let indices = match &self.indices {
             Some(indices) => indices.value.clone(),
             None if count.is_multiple_of(3) => (0..count as u32 / 3).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect(),
             None => {
                 let message = format!("{count} vertices without `indices` are not triangles; expected a multiple of 3");
-                return Err(Fault::new(&self.positions.at, message));
+                return Err(Fault::new(&positions.at, message));
             }
         };
         Ok(Mesh {
-            positions: self.positions.value.clone(),
+            positions: positions.value.clone(),
             indices,
-            normals: self.normals.value.clone(),
-            uv: [self.uv.clone(), Vec::new()],
-            colors: self.colors.iter().map(|c| Vec4::new(c[0].0, c[1].0, c[2].0, 1.0)).collect(),
-            ..Mesh::default()
+            normals: self.normals.clone(),
+            tangents: self.tangents.clone(),
+            uv: [self.uv.clone(), self.second_uv.clone()],
+            colors: self.colors.iter().map(|c| c.0).collect(),
         })
     }
+
+    /// The mesh of a PLY file, which must say everything.
+    fn mesh_of_file(&self, file: &At<String>, b: &mut Builder<'_>) -> Result<Arc<Mesh>, Fault> {
+        if let Some((key, _)) = pairs(self).first().filter(|(key, _)| *key != "file") {
+            return Err(Fault::new(&file.at, format!("`{key}` is given too; expected one way")));
+        }
+        b.mesh_file(file)
+    }
+
+    fn of(mesh: &Mesh) -> Self {
+        let Mesh { positions, indices, normals, tangents, uv: [uv, second_uv], colors } = mesh.clone();
+        Self {
+            positions: Some(At::nowhere(positions)),
+            indices: Some(At::nowhere(indices)),
+            normals,
+            tangents,
+            uv,
+            second_uv,
+            colors: colors.into_iter().map(VertexColor).collect(),
+            file: None,
+        }
+    }
+
+    fn in_file(name: String) -> Self {
+        Self { positions: None, indices: None, file: Some(At::nowhere(name)), ..Self::of(&Mesh::default()) }
+    }
+}
+
+impl ShapeKind {
+    /// What builds this geometry at its own place. A mesh is one of the file `file`, if there is one.
+    pub(super) fn of(shape: &Shape, file: Option<String>) -> Self {
+        let nowhere = |value| At::nowhere(value);
+        match shape {
+            Shape::Sphere { radius } => {
+                Self::SphereShape(SphereShape { radius: Positive(*radius), center: Vec3::ZERO })
+            }
+            Shape::Disk { radius } => {
+                Self::DiskShape(DiskShape { radius: Positive(*radius), center: Vec3::ZERO, normal: nowhere(Vec3::Z) })
+            }
+            Shape::Cylinder { radius, height } => Self::CylinderShape(CylinderShape {
+                radius: Positive(*radius),
+                from: Vec3::ZERO,
+                to: nowhere(Vec3::Z * *height),
+            }),
+            Shape::Mesh(mesh) => match (file, plain(mesh)) {
+                (_, Some(known)) => known,
+                (Some(name), None) => Self::MeshShape(MeshShape::in_file(name)),
+                (None, None) => Self::MeshShape(MeshShape::of(mesh)),
+            },
+        }
+    }
+}
+
+impl ShapeKind {
+    /// The geometry of this name.
+    pub(super) fn shared(name: String) -> Self {
+        Self::SharedShape(SharedShape { geometry: At::nowhere(name) })
+    }
+}
+
+/// The quad or box that this mesh is.
+fn plain(mesh: &Mesh) -> Option<ShapeKind> {
+    let [first, .., last] = mesh.positions[..] else { return None };
+    if let [a, b, c, d] = mesh.positions[..] {
+        let quad = QuadShape { corner: None, edge_u: None, edge_v: None, vertices: Some([a, b, c, d]) };
+        let same = quad.mesh(&(0..0)).is_ok_and(|quad| quad == *mesh);
+        return same.then_some(ShapeKind::QuadShape(quad));
+    }
+    // The last vertex of the last face is the upper corner but for z; `cuboid` adds, which rounds.
+    let max = mesh.positions.iter().fold(first.max(last), |max, p| max.max(*p));
+    let same = mesh.positions.len() == 24 && primitives::cuboid(first, max) == *mesh;
+    same.then_some(ShapeKind::BoxShape(BoxShape { min: At::nowhere(first), max }))
 }

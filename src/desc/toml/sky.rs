@@ -1,9 +1,11 @@
 //! `[environment]` with `type = "sky"`.
 
 use super::build::Builder;
-use super::color::Grey;
+use super::color::Rgb;
 use super::keys::keys;
-use super::read::{At, Fault, Fraction, Number};
+use super::number::{Fraction, Number};
+use super::read::{At, Fault};
+use super::short::Each;
 use crate::desc::sky::{Instant, SUN_DIAMETER, Sky, sun_position};
 use crate::desc::{Environment, Light};
 use glam::Mat3;
@@ -27,7 +29,7 @@ keys! {
         /// Optical thickness of air and haze over that of air alone, 1 to 20: 2 to 3 on clear days. Default 2.5.
         turbidity: At<Number> = At { at: 0..0, value: Number(2.5) },
         /// Albedo of the ground, which lights the sky and is seen below the horizon, a number or [r, g, b]. Default 0.3.
-        ground: Grey<Fraction> = Grey([Fraction(0.3); 3]),
+        ground: Rgb<Fraction> = Each([Fraction(0.3); 3]),
         /// Whether the sun's disk, 0.533 degrees wide, shines too. Default true.
         sun: bool = true,
     }

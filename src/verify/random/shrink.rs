@@ -86,7 +86,7 @@ fn bare(shape: &mut Shape, change: impl Fn(&mut Mesh)) {
     }
 }
 
-/// A scene as text.
+/// A scene as a file of its own.
 pub(super) fn text(scene: &Scene) -> String {
-    format!("{scene:#?}")
+    crate::desc::toml::to_text(scene)
 }
