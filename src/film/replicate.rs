@@ -49,11 +49,16 @@ impl Replicate {
             values[*at..*at + 3].copy_from_slice(&of(sample, classes));
         }
         let values = &mut values[..self.layers.sums];
-        let valid = |ok, (x, least): (&f32, &f32)| ok & (*x >= *least) & (*x <= f32::MAX);
-        let invalid =
-            if values.iter().zip(&*self.layers.least).fold(true, valid) { None } else { self.layers.clear(values) };
         let sums = &mut self.sums[i * values.len()..][..values.len()];
-        sums.iter_mut().zip(values).for_each(|(sum, x)| *sum += f64::from(*x));
+        let least = &self.layers.least[..values.len()];
+        let mut valid = true;
+        for c in 0..values.len() {
+            valid &= values[c] >= least[c] && values[c] <= f32::MAX;
+        }
+        let invalid = if valid { None } else { self.layers.clear(values) };
+        for c in 0..values.len() {
+            sums[c] += f64::from(values[c]);
+        }
         invalid
     }
 
