@@ -9,6 +9,7 @@ mod lobes;
 mod restricted;
 mod sampler;
 mod scenes;
+mod splats;
 mod warp;
 
 use super::Task;
@@ -26,6 +27,7 @@ pub fn tasks() -> Vec<Task> {
         restricted::tasks,
         sampler::tasks,
         scenes::tasks,
+        splats::tasks,
         warp::tasks,
     ];
     let mut tasks: Vec<Task> = rows.iter().flat_map(|row| row()).collect();
