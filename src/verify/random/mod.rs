@@ -96,7 +96,7 @@ fn examine(desc: &desc::Scene, trial: &Trial, found: &mut Findings) -> Option<(A
             failing = Some((aspect, rays));
         }
         let name = |name: &str| format!("{aspect:?}, {name}");
-        looked.checks.checks().iter().for_each(|check| found.checks.push(name(&check.name), check.evidence.clone()));
+        looked.checks.checks().iter().for_each(|check| found.checks.push(name(&check.name), check.evidence));
         if least(looked.checks.checks()) < SUSPECT {
             found.words.extend(looked.words);
             found.exhibits.extend(looked.exhibits);
