@@ -377,7 +377,7 @@ fn what_emits_through_holes_emits_by_its_coverage() {
     let [r, g, b] = image.rgb(radianza::film::Image::BEAUTY).expect("colours");
     assert_eq!((r, g, b), (&[0.0, 4.0][..], &[0.0, 2.0][..], &[0.0, 1.0][..]));
     let pbrt = std::fs::read_to_string(folder.path().join("a.pbrt")).unwrap();
-    assert!(pbrt.contains("rgb L\" [4 2 1]") && pbrt.contains("\"float alpha\" [0.5]"), "{pbrt}");
+    assert!(pbrt.contains("\"rgb L\" [ 4 2 1 ]") && pbrt.contains("\"float alpha\" [ 0.5 ]"), "{pbrt}");
 }
 
 /// Without what it needs, a test says that it was skipped though the harness captures what passing tests print.

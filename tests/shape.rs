@@ -363,7 +363,9 @@ fn derivatives_are_those_of_the_texture_coordinates() {
                 let step = 0.0025 * size / derivative.length();
                 let uv = |sign: f32| {
                     let ray = Ray::new(ray.o + derivative * (sign * step), d);
-                    Some(primitive.surface(&ray, &primitive.intersect(&ray, f32::INFINITY)?, true).uv[0])
+                    let beside = primitive.surface(&ray, &primitive.intersect(&ray, f32::INFINITY)?, true);
+                    // Not past a rim, on what lies behind.
+                    (beside.p.distance(at.p) < 0.02 * size).then_some(beside.uv[0])
                 };
                 let (Some(more), Some(less)) = (uv(1.0), uv(-1.0)) else { continue };
                 let change = (more - less) / (2.0 * step);
