@@ -5,7 +5,7 @@ mod common;
 use common::closed_mesh;
 use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
-use radianza::bvh::{Aabb, BoxBvh, Isa, Quality, Slot, TriangleBvh};
+use radianza::bvh::{Aabb, BoxBvh, Isa, Quality, TriangleBvh, TriangleRef};
 use radianza::math::{Ray, offset_origin};
 use radianza::sampler::{Kind, Sampler};
 use radianza::shape::intersect_triangle;
@@ -46,15 +46,15 @@ proptest! {
             // Axis-parallel rays too: their reciprocals are infinite.
             let d = if i % 10 == 0 { Vec3::AXES[i / 10 % 3] } else { warp::uniform_sphere(u.next_2d()) };
             let ray = Ray { t_max: if i % 3 == 0 { spread } else { f32::INFINITY }, ..Ray::new(o, d) };
-            let hit = bvh.nearest(&ray, Slot::NONE);
-            prop_assert_eq!(hit.is_some(), bvh.occluded(&ray, Slot::NONE));
+            let hit = bvh.nearest(&ray, TriangleRef::NONE);
+            prop_assert_eq!(hit.is_some(), bvh.occluded(&ray, TriangleRef::NONE));
             // At an edge another tree may find the other triangle, at the same place.
             for tree in &trees {
-                prop_assert_eq!(hit.map(|h| h.t), tree.nearest(&ray, Slot::NONE).map(|h| h.t));
+                prop_assert_eq!(hit.map(|h| h.t), tree.nearest(&ray, TriangleRef::NONE).map(|h| h.t));
             }
             for other in &others {
-                prop_assert_eq!(hit, other.nearest(&ray, Slot::NONE));
-                prop_assert_eq!(hit.is_some(), other.occluded(&ray, Slot::NONE));
+                prop_assert_eq!(hit, other.nearest(&ray, TriangleRef::NONE));
+                prop_assert_eq!(hit.is_some(), other.occluded(&ray, TriangleRef::NONE));
             }
             // A ray that is told to leave the triangle meets what is behind it.
             if let Some(hit) = hit {
@@ -114,12 +114,14 @@ fn degenerate_triangles_are_never_hit_and_harm_nothing() {
     let bvh = TriangleBvh::build(&positions, &indices, Quality::Default);
     for i in 0..1000 {
         let d = Quat::from_rotation_y(i as f32 * 0.1) * Vec3::new(0.3, (i as f32).sin(), 0.9).normalize();
-        let hit = bvh.nearest(&Ray::new(-d * 0.7, d), Slot::NONE).expect("inside a closed mesh");
+        let hit = bvh.nearest(&Ray::new(-d * 0.7, d), TriangleRef::NONE).expect("inside a closed mesh");
         assert!(hit.triangle < indices.len() as u32 - 3);
         assert!(hit.t.is_finite() && hit.u.is_finite() && hit.v.is_finite());
     }
     assert!(
-        TriangleBvh::build(&[], &[], Quality::Default).nearest(&Ray::new(Vec3::ZERO, Vec3::X), Slot::NONE).is_none()
+        TriangleBvh::build(&[], &[], Quality::Default)
+            .nearest(&Ray::new(Vec3::ZERO, Vec3::X), TriangleRef::NONE)
+            .is_none()
     );
 }
 
@@ -142,10 +144,16 @@ fn rays_that_leave_a_plane_through_zero_do_not_meet_it() {
                     let d = warp::cosine_hemisphere(u.next_2d());
                     let d = Vec3A::from(turn(Vec3::new(d.x, d.z, d.y)));
                     let o = offset_origin(turn(Vec3::new(x, 0.0, z)).into(), Vec3A::ZERO, normal, d);
-                    let found = (bvh.nearest(&Ray::new(o, d), Slot::NONE), bvh.occluded(&Ray::new(o, d), Slot::NONE));
+                    let found = (
+                        bvh.nearest(&Ray::new(o, d), TriangleRef::NONE),
+                        bvh.occluded(&Ray::new(o, d), TriangleRef::NONE),
+                    );
                     assert_eq!(found, (None, false), "axis {axis} scale {scale} {isa:?}: {o} {d}");
                     let back = Ray::new(o + normal * (1e-3 * scale), -normal);
-                    assert!(bvh.nearest(&back, Slot::NONE).is_some() && bvh.occluded(&back, Slot::NONE), "{o}");
+                    assert!(
+                        bvh.nearest(&back, TriangleRef::NONE).is_some() && bvh.occluded(&back, TriangleRef::NONE),
+                        "{o}"
+                    );
                 }
             }
         }

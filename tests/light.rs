@@ -4,7 +4,9 @@
 use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec3A};
-use radianza::light::{Choice, Emitter, Environment, Facing, Light, Lights, QuadricLight, Receiver, TriangleLight};
+use radianza::light::{
+    Emitter, Environment, Facing, Light, LightSampler, Lights, QuadricLight, Receiver, TriangleLight,
+};
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
 use radianza::spectrum::Spectrum;
@@ -162,7 +164,7 @@ fn more_lights_than_numbers_of_24_bits() {
     let n = (1 << 23) + 3;
     // The last has as much as all others together.
     let fluxes: Vec<f64> = (0..n).map(|i| if i == n - 1 { (n - 1) as f64 } else { 1.0 }).collect();
-    let choice = Choice::new(&[], &fluxes, 1.0);
+    let choice = LightSampler::new(&[], &fluxes, 1.0);
     let receiver = Receiver::anywhere(Vec3::ZERO);
     assert!(!choice.is_empty());
     let last = f64::from(choice.probability(&receiver, n as u32 - 1));

@@ -5,7 +5,7 @@ mod common;
 use common::closed_mesh;
 use glam::Vec3;
 use radianza::bsdf::Scratch;
-use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
+use radianza::bvh::{Isa, Quality, TriangleBvh, TriangleRef};
 use radianza::desc::{self, ColorParam, Model, Object, Shape};
 use radianza::math::Ray;
 use radianza::medium::MediumStack;
@@ -49,7 +49,7 @@ fn ten_million_rays_at_edges_and_vertices_of_closed_meshes_find_them() {
                     let ray = Ray::new(o, (at - o).normalize());
                     // At the silhouette the rounding of the direction alone may lead past the mesh.
                     let grazing = o == outside && ray.d.dot((at - centre).normalize().into()).abs() < 0.15;
-                    let met = (bvh.nearest(&ray, Slot::NONE).is_some(), bvh.occluded(&ray, Slot::NONE));
+                    let met = (bvh.nearest(&ray, TriangleRef::NONE).is_some(), bvh.occluded(&ray, TriangleRef::NONE));
                     assert!(grazing || met == (true, true), "{isa:?}: a ray from {o} at {at} slipped through: {met:?}");
                     grazed.fetch_add(u64::from(grazing), Ordering::Relaxed);
                 }

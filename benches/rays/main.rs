@@ -17,7 +17,7 @@ mod scenes;
 
 use cpu_time::ThreadTime;
 use embree::{BuildQuality, Embree};
-use radianza::bvh::{Isa, Quality, Slot, TriangleBvh};
+use radianza::bvh::{Isa, Quality, TriangleBvh, TriangleRef};
 use radianza::math::Ray;
 use scenes::{Meshed, Query, RaySet};
 use std::hint::black_box;
@@ -41,11 +41,11 @@ struct Contender<'a> {
 fn own<'a>(name: &str, bvh: TriangleBvh, told: bool) -> Contender<'a> {
     let bvh = Rc::new(bvh);
     let prepare = move |set: &RaySet| {
-        let slot = |ray: &Ray| bvh.nearest(ray, Slot::NONE).map_or(Slot::NONE, |hit| hit.slot);
-        let leaving: Vec<Slot> = if told && set.leaves_surfaces() {
+        let slot = |ray: &Ray| bvh.nearest(ray, TriangleRef::NONE).map_or(TriangleRef::NONE, |hit| hit.slot);
+        let leaving: Vec<TriangleRef> = if told && set.leaves_surfaces() {
             set.parents.iter().map(slot).collect()
         } else {
-            vec![Slot::NONE; set.rays.len()]
+            vec![TriangleRef::NONE; set.rays.len()]
         };
         let (bvh, query) = (bvh.clone(), set.query);
         Box::new(move |rays: &[Ray]| ours(&bvh, query, rays, &leaving)) as Run
@@ -177,7 +177,7 @@ fn race(scene: &Meshed, library: Option<&Embree>, told: bool, sums: &mut Vec<Geo
     }
 }
 
-fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray], leaving: &[Slot]) -> (usize, f64) {
+fn ours(bvh: &TriangleBvh, query: Query, rays: &[Ray], leaving: &[TriangleRef]) -> (usize, f64) {
     let rays = rays.iter().zip(leaving);
     match query {
         Query::Nearest => rays.fold((0, 0.0), |(n, sum), (ray, &slot)| match bvh.nearest(ray, slot) {

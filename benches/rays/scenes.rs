@@ -1,7 +1,7 @@
 //! Five scenes, and rays as a path tracer asks them.
 
 use glam::{Quat, Vec3, Vec3A};
-use radianza::bvh::{Slot, TriangleBvh};
+use radianza::bvh::{TriangleBvh, TriangleRef};
 use radianza::desc;
 use radianza::math::{Frame, Ray, offset_origin};
 use radianza::sampler::{Kind, Sampler};
@@ -139,7 +139,7 @@ impl Meshed {
     fn leave(&self, bvh: &TriangleBvh, rays: &[Ray], u: &mut Sampler) -> (Left, Left) {
         let (mut bounces, mut shadows) = (Left::default(), Left::default());
         for ray in rays {
-            let Some(hit) = bvh.nearest(ray, Slot::NONE) else { continue };
+            let Some(hit) = bvh.nearest(ray, TriangleRef::NONE) else { continue };
             let corners = bvh.vertices(hit.slot);
             let Some(n) = triangle_normal(corners.map(Vec3::from)).map(Vec3A::from) else { continue };
             let n = if n.dot(ray.d) > 0.0 { -n } else { n };

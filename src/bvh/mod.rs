@@ -16,7 +16,7 @@ pub use boxes::BoxBvh;
 pub use build::Quality;
 pub use kernel::Isa;
 pub use obstacle::{Obstacle, PASSAGES, Passages, Passing};
-pub use triangles::{Slot, TriangleBvh, TriangleHit};
+pub use triangles::{TriangleBvh, TriangleHit, TriangleRef};
 
 use glam::Vec3;
 

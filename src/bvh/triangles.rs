@@ -23,16 +23,16 @@ pub struct TriangleHit {
     /// Which triangle.
     pub triangle: u32,
     /// Where the tree holds it.
-    pub slot: Slot,
+    pub slot: TriangleRef,
 }
 
-/// A place for a triangle in a tree. A ray that leaves the triangle there does not meet it again, which it knows better than
-/// rounding can tell.
+/// A reference to a triangle of a tree: the leaf and the lane that hold it. A ray that leaves the triangle excludes it, for it
+/// cannot meet it again, which rounding alone would not tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slot(u32);
+pub struct TriangleRef(u32);
 
-impl Slot {
-    /// Of a ray that leaves no triangle of the tree.
+impl TriangleRef {
+    /// No triangle of the tree.
     pub const NONE: Self = Self(NONE);
 
     #[inline]
@@ -57,7 +57,7 @@ impl Slot {
     }
 }
 
-impl Default for Slot {
+impl Default for TriangleRef {
     fn default() -> Self {
         Self::NONE
     }
@@ -120,7 +120,7 @@ impl TriangleBvh {
         Self { leaves, ids, passages: Vec::new(), bounds, nodes, isa: Isa::in_use() }
     }
 
-    /// The same triangles, which light may pass for the reasons that `of` a triangle gives.
+    /// Says why shadow rays may pass each triangle: for the reasons that `of` gives.
     #[must_use]
     pub fn with_passages(mut self, of: impl Fn(u32) -> Passages) -> Self {
         let leaf = |ids: &[u32; WIDTH]| {
@@ -133,17 +133,17 @@ impl TriangleBvh {
         self
     }
 
-    /// The same tree, traversed by another kernel; `None` where this CPU does not run it.
+    /// Has the tree traversed by another kernel; `None` where this CPU does not run it.
     pub fn with_isa(mut self, isa: Isa) -> Option<Self> {
         self.isa = isa;
         isa.is_available().then_some(self)
     }
 
-    /// The nearest hit in (0, `ray.t_max`) of a ray that leaves the triangle at `leaving`.
+    /// The nearest hit in (0, `ray.t_max`) of a ray that leaves `excluded`.
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, leaving: Slot) -> Option<TriangleHit> {
+    pub fn nearest(&self, ray: &Ray, excluded: TriangleRef) -> Option<TriangleHit> {
         let mut found = Found::NOTHING;
-        if self.nodes.is_empty() || !kernel::nearest(self.isa, &self.nodes, &self.leaves, ray, leaving, &mut found) {
+        if self.nodes.is_empty() || !kernel::nearest(self.isa, &self.nodes, &self.leaves, ray, excluded, &mut found) {
             return None;
         }
         let ([t, u, v], slot) = found.parts();
@@ -151,16 +151,16 @@ impl TriangleBvh {
         Some(TriangleHit { t, u, v, triangle: self.ids[leaf][lane], slot })
     }
 
-    /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves the triangle at `leaving`.
+    /// Whether anything is hit in (0, `ray.t_max`) by a ray that leaves `excluded`.
     #[inline(always)]
-    pub fn occluded(&self, ray: &Ray, leaving: Slot) -> bool {
-        self.obstacle(ray, [leaving, Slot::NONE], Passing::NOTHING) != Obstacle::None
+    pub fn occluded(&self, ray: &Ray, excluded: TriangleRef) -> bool {
+        self.obstacle(ray, [excluded, TriangleRef::NONE], Passing::NOTHING) != Obstacle::None
     }
 
     /// What is hit in (0, `ray.t_max`) by a ray that meets neither the triangle that it leaves nor the one that it leads to,
     /// and passes some of the others: opaque ones are asked for first.
     #[inline(always)]
-    pub fn obstacle(&self, ray: &Ray, excluded: [Slot; 2], passing: Passing) -> Obstacle {
+    pub fn obstacle(&self, ray: &Ray, excluded: [TriangleRef; 2], passing: Passing) -> Obstacle {
         if self.nodes.is_empty() {
             return Obstacle::None;
         }
@@ -168,12 +168,12 @@ impl TriangleBvh {
         kernel::obstacle(self.isa, &self.nodes, &self.leaves, &shadow)
     }
 
-    /// A slot of each of `count` triangles; [`Slot::NONE`] of those that the tree does not hold.
-    pub fn slots(&self, count: usize) -> Vec<Slot> {
-        let mut slots = vec![Slot::NONE; count];
+    /// A slot of each of `count` triangles; [`TriangleRef::NONE`] of those that the tree does not hold.
+    pub fn slots(&self, count: usize) -> Vec<TriangleRef> {
+        let mut slots = vec![TriangleRef::NONE; count];
         for (leaf, ids) in self.ids.iter().enumerate() {
             for (lane, &id) in ids.iter().enumerate().filter(|(_, id)| **id != NONE) {
-                slots[id as usize] = Slot::new(leaf as u32, lane as u32);
+                slots[id as usize] = TriangleRef::new(leaf as u32, lane as u32);
             }
         }
         slots
@@ -181,14 +181,14 @@ impl TriangleBvh {
 
     /// The triangle at a slot of this tree.
     #[inline]
-    pub fn triangle(&self, slot: Slot) -> u32 {
+    pub fn triangle(&self, slot: TriangleRef) -> u32 {
         let (leaf, lane) = slot.place();
         self.ids[leaf][lane]
     }
 
     /// Vertices of the triangle at a slot of this tree: after a hit from the leaf that has just been looked at.
     #[inline]
-    pub fn vertices(&self, slot: Slot) -> [Vec3A; 3] {
+    pub fn vertices(&self, slot: TriangleRef) -> [Vec3A; 3] {
         let (leaf, lane) = slot.place();
         self.leaves[leaf].triangle(lane).map(Vec3A::from)
     }

@@ -1,6 +1,6 @@
 //! All lights of a scene, and the choice of one.
 
-use super::{Choice, Light, LightSample, Receiver};
+use super::{Light, LightSample, LightSampler, Receiver};
 use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -15,12 +15,12 @@ pub struct Lights {
     lights: Vec<Light>,
     powers: Vec<Spectrum>,
     environments: Vec<u32>,
-    choice: Choice,
+    choice: LightSampler,
 }
 
 impl Lights {
     /// Lights of a scene within the sphere of this centre and radius. A light has probability 0 only where its radiance
-    /// is 0 everywhere; how the others share is the business of [`Choice`].
+    /// is 0 everywhere; how the others share is the business of [`LightSampler`].
     pub fn new(mut lights: Vec<Light>, (_center, radius): (Vec3, f32), textures: &Textures) -> Self {
         // A scene of one point, or of none, is still lit from infinity.
         let radius = if radius.is_finite() { radius.clamp(1e-12, 1e15) } else { 1.0 };
@@ -37,11 +37,11 @@ impl Lights {
             if p.is_black() { 0.0 } else { y.clamp(f64::from(f32::MIN_POSITIVE), f64::from(f32::MAX)) }
         };
         let fluxes: Vec<f64> = powers.iter().map(weight).collect();
-        let choice = Choice::new(&lights, &fluxes, radius);
+        let choice = LightSampler::new(&lights, &fluxes, radius);
         Self { lights, powers, environments, choice }
     }
 
-    /// The same lights, chosen by power alone, however many they are: what the tree is measured against.
+    /// These lights, one of which is chosen by power alone, however many they are: what the tree is measured against.
     pub fn by_power(self) -> Self {
         Self { choice: self.choice.by_power(), ..self }
     }
@@ -103,7 +103,7 @@ impl Lights {
         self.environment_le_and_pdf(receiver, wi).1
     }
 
-    /// Both of these at once.
+    /// [`environment_le`](Self::environment_le) and [`environment_pdf`](Self::environment_pdf) at once.
     #[inline(never)]
     pub fn environment_le_and_pdf(&self, receiver: &Receiver, wi: Vec3A) -> (Spectrum, f32) {
         self.environments().fold((Spectrum::ZERO, 0.0), |(le, pdf), (i, light)| {

@@ -8,7 +8,6 @@
 mod alias;
 mod area;
 mod cells;
-mod choice;
 mod choose;
 mod directional;
 mod emitter;
@@ -18,6 +17,7 @@ mod point;
 mod profile;
 mod quadric;
 mod receiver;
+mod sampler;
 mod specimens;
 mod spherical_triangle;
 mod spot;
@@ -26,7 +26,6 @@ pub mod tree;
 mod triangle;
 
 pub use alias::Alias;
-pub use choice::Choice;
 pub use choose::Lights;
 pub use directional::DirectionalLight;
 pub use emitter::Emitter;
@@ -35,6 +34,7 @@ pub use point::PointLight;
 pub use profile::ProfileLight;
 pub use quadric::QuadricLight;
 pub use receiver::{Facing, Receiver};
+pub use sampler::LightSampler;
 pub use specimens::{Specimen, specimens};
 pub use spherical_triangle::SphericalTriangle;
 pub use spot::SpotLight;
@@ -129,7 +129,7 @@ impl Light {
         }
     }
 
-    /// The same of all but triangles: apart from these, so that they do not pass through memory for its sake.
+    /// [`sample`](Self::sample) of all lights but triangles. Outlined, so that those stay in registers.
     #[inline(never)]
     fn sample_large(&self, p: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         match self {
@@ -251,7 +251,8 @@ impl Light {
         }
     }
 
-    /// The same with the density over solid angle with which [`sample`](Self::sample) draws `wi` from infinity.
+    /// Radiance from infinity along the unit vector `wi`, and the density over solid angle with which
+    /// [`sample`](Self::sample) draws it; 0 of other lights.
     #[inline]
     pub fn le_and_pdf_from(&self, wi: Vec3A) -> (Spectrum, f32) {
         match self {

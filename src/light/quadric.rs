@@ -125,7 +125,8 @@ impl QuadricLight {
         self.density(reference, p, ng, &sight, || self.shape.point_at(p.as_dvec3()))
     }
 
-    /// The same, of the point `p` so seen, which is `point` in the quadric's own space.
+    /// Density over solid angle of the point `p` with normal `ng`, seen as `sight` says; `point` is it in the quadric's own
+    /// space.
     #[inline]
     fn density(
         &self,

@@ -120,7 +120,7 @@ impl TriangleLight {
         self.drawn([v, w], &sight, p, sight.solid_angle_pdf(1.0 / self.area), textures)
     }
 
-    /// The same with all choices, apart from those without: their numbers need not pass through memory.
+    /// [`sample`](Self::sample) by solid angle or by cells. Outlined, so that sampling by area stays in registers.
     #[inline(never)]
     fn sample_apart(&self, reference: Vec3A, u: [f32; 2], textures: &Textures) -> Option<LightSample> {
         let (weights, sight, p, pdf) = match self.cells() {

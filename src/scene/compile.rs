@@ -33,7 +33,7 @@ impl Scene {
         Self::compile_with(desc, Quality::default())
     }
 
-    /// The same with hierarchies of another quality.
+    /// Builds what is traced, with hierarchies of the given quality.
     ///
     /// # Errors
     /// As [`compile`](Self::compile).

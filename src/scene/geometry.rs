@@ -2,7 +2,7 @@
 
 use super::instance::Prototype;
 use super::object::{Departure, Hit, Object, WORLD};
-use crate::bvh::{Aabb, BoxBvh, Obstacle, Passages, Passing, Quality, Slot, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, BoxBvh, Obstacle, Passages, Passing, Quality, TriangleBvh, TriangleHit, TriangleRef};
 use crate::desc::Mesh;
 use crate::math::Ray;
 use crate::shape::{
@@ -166,7 +166,7 @@ impl Geometry {
     /// The primitive of each emitter, as owners number them: the ends of shadow rays.
     pub(super) fn emitters(&self, count: usize) -> Vec<Departure> {
         let mut found = vec![Departure::NOWHERE; count];
-        let mut put = |owner: &Owner, object: u32, slots: &[Slot]| {
+        let mut put = |owner: &Owner, object: u32, slots: &[TriangleRef]| {
             let Some(first) = owner.emitter else { return };
             for (to, &slot) in found[first as usize..].iter_mut().zip(slots) {
                 *to = Departure { object, slot };
@@ -181,7 +181,7 @@ impl Geometry {
                 first = next;
             }
         }
-        let mut known: Vec<Option<Vec<Slot>>> = vec![None; self.prototypes.len()];
+        let mut known: Vec<Option<Vec<TriangleRef>>> = vec![None; self.prototypes.len()];
         for (i, object) in self.objects.iter().enumerate().filter(|(_, o)| o.owner().emitter.is_some()) {
             match object {
                 Object::Instance(instance) => {
@@ -190,7 +190,7 @@ impl Geometry {
                         .get_or_insert_with(|| prototype.bvh.slots(prototype.mesh.indices.len()));
                     put(&instance.owner, i as u32, slots);
                 }
-                Object::Primitive(_, owner) => put(owner, i as u32, &[Slot::NONE]),
+                Object::Primitive(_, owner) => put(owner, i as u32, &[TriangleRef::NONE]),
             }
         }
         found

@@ -1,7 +1,7 @@
 //! Meshes that stand in several places.
 
 use super::geometry::{Owner, corners};
-use crate::bvh::{Aabb, Obstacle, Passing, Slot, TriangleBvh, TriangleHit};
+use crate::bvh::{Aabb, Obstacle, Passing, TriangleBvh, TriangleHit, TriangleRef};
 use crate::desc::Mesh;
 use crate::math::{Ray, Transform, gamma};
 use crate::shape::{Surface, triangle_surface};
@@ -43,14 +43,20 @@ impl Instance {
         (Ray { o: o + d * shift, d, t_max: t_max - shift }, shift)
     }
 
-    pub(super) fn nearest(&self, prototype: &Prototype, ray: &Ray, t_max: f32, leaving: Slot) -> Option<TriangleHit> {
+    pub(super) fn nearest(
+        &self,
+        prototype: &Prototype,
+        ray: &Ray,
+        t_max: f32,
+        leaving: TriangleRef,
+    ) -> Option<TriangleHit> {
         let (local, skipped) = self.ray(ray, t_max);
         let mut hit = prototype.bvh.nearest(&local, leaving)?;
         hit.t += skipped;
         Some(hit)
     }
 
-    pub(super) fn occluded(&self, prototype: &Prototype, ray: &Ray, t_max: f32, excluded: [Slot; 2]) -> bool {
+    pub(super) fn occluded(&self, prototype: &Prototype, ray: &Ray, t_max: f32, excluded: [TriangleRef; 2]) -> bool {
         prototype.bvh.obstacle(&self.ray(ray, t_max).0, excluded, Passing::NOTHING) != Obstacle::None
     }
 

@@ -2,7 +2,7 @@
 
 use super::geometry::Owner;
 use super::instance::{Instance, Prototype};
-use crate::bvh::{Aabb, Slot};
+use crate::bvh::{Aabb, TriangleRef};
 use crate::math::Ray;
 use crate::shape::{Primitive, PrimitiveHit, Surface};
 
@@ -19,7 +19,7 @@ pub enum Object {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Departure {
     pub(super) object: u32,
-    pub(super) slot: Slot,
+    pub(super) slot: TriangleRef,
 }
 
 /// Object of the triangles that stand once, in world space.
@@ -27,18 +27,18 @@ pub(super) const WORLD: u32 = u32::MAX;
 
 impl Departure {
     /// None: of rays that leave no primitive, of lights that have none.
-    pub const NOWHERE: Self = Self { object: WORLD, slot: Slot::NONE };
+    pub const NOWHERE: Self = Self { object: WORLD, slot: TriangleRef::NONE };
 
     /// It is a triangle, of the world or of an instance.
     #[inline]
     pub fn is_triangle(self) -> bool {
-        self.slot != Slot::NONE
+        self.slot != TriangleRef::NONE
     }
 
     /// Where the tree of this object holds it.
     #[inline]
-    pub(super) fn of(self, object: u32) -> Slot {
-        if self.object == object { self.slot } else { Slot::NONE }
+    pub(super) fn of(self, object: u32) -> TriangleRef {
+        if self.object == object { self.slot } else { TriangleRef::NONE }
     }
 }
 
@@ -108,7 +108,7 @@ impl Object {
             }
             Self::Primitive(primitive, _) => {
                 let hit = primitive.intersect(ray, t_max)?;
-                Some(Hit::of(hit, Departure { object: index, slot: Slot::NONE }))
+                Some(Hit::of(hit, Departure { object: index, slot: TriangleRef::NONE }))
             }
         }
     }

@@ -143,7 +143,7 @@ impl PlacedQuadric {
         self.to_world.matrix3.determinant().abs() * (self.to_object.matrix3.transpose() * n).length()
     }
 
-    /// The same from the unit world normal: |det M| / |Mᵀ n|.
+    /// Area in the world per area of the object at unit world normal `n`: |det M| / |Mᵀ n|.
     pub fn area_scale_world(&self, n: DVec3) -> f64 {
         self.to_world.matrix3.determinant().abs() / (self.to_world.matrix3.transpose() * n).length()
     }

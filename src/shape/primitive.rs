@@ -36,7 +36,7 @@ pub struct PrimitiveHit {
     pub t: f32,
     /// Where on the primitive: of a triangle the weight of the second vertex; 0 of a quadric, whose point the ray says.
     pub u: f32,
-    /// Likewise: of a triangle the weight of the third vertex.
+    /// The other parameter: of a triangle the weight of the third vertex, 0 of a quadric.
     pub v: f32,
 }
 

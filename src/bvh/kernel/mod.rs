@@ -24,7 +24,7 @@ pub(super) use stack::{Entry, Stack};
 
 use super::node::{Node, TriangleLeaf, WIDTH};
 use super::obstacle::{LeafPassages, Obstacle, Passing};
-use super::triangles::Slot;
+use super::triangles::TriangleRef;
 use crate::math::Ray;
 use glam::Vec4;
 use std::sync::OnceLock;
@@ -80,7 +80,7 @@ impl Isa {
         CHOSEN.get_or_init(choose).clone()
     }
 
-    /// The same, or the best where it cannot be: those who trace have no one to tell.
+    /// The [`chosen`](Self::chosen) one, or the best where it cannot be: tracing has nobody to report an error to.
     pub(super) fn in_use() -> Self {
         Self::chosen().unwrap_or_else(|_| Self::detect())
     }
@@ -100,15 +100,15 @@ impl Found {
     pub(super) const NOTHING: Self = Self(Vec4::ZERO);
 
     #[inline]
-    fn new(t: f32, u: f32, v: f32, slot: Slot) -> Self {
+    fn new(t: f32, u: f32, v: f32, slot: TriangleRef) -> Self {
         Self(Vec4::new(t, u, v, f32::from_bits(slot.bits())))
     }
 
     /// t, u, v, and where.
     #[inline]
-    pub(super) fn parts(self) -> ([f32; 3], Slot) {
+    pub(super) fn parts(self) -> ([f32; 3], TriangleRef) {
         let [t, u, v, slot] = self.0.to_array();
-        ([t, u, v], Slot::from_bits(slot.to_bits()))
+        ([t, u, v], TriangleRef::from_bits(slot.to_bits()))
     }
 }
 
@@ -119,17 +119,17 @@ pub(super) fn nearest(
     nodes: &[Node],
     leaves: &[TriangleLeaf],
     ray: &Ray,
-    leaving: Slot,
+    excluded: TriangleRef,
     hit: &mut Found,
 ) -> bool {
     match isa {
         #[cfg(target_arch = "x86_64")]
         // SAFETY: an `Isa` reaches a tree only through `Isa::in_use` or `is_available`, which saw the features.
-        Isa::Avx2 => unsafe { avx2::nearest(nodes, leaves, ray, leaving, hit) },
+        Isa::Avx2 => unsafe { avx2::nearest(nodes, leaves, ray, excluded, hit) },
         #[cfg(target_arch = "x86_64")]
         // SAFETY: as above.
-        Isa::Avx512 => unsafe { avx512::nearest(nodes, leaves, ray, leaving, hit) },
-        _ => portable::nearest(nodes, leaves, ray, leaving, hit),
+        Isa::Avx512 => unsafe { avx512::nearest(nodes, leaves, ray, excluded, hit) },
+        _ => portable::nearest(nodes, leaves, ray, excluded, hit),
     }
 }
 
@@ -138,7 +138,7 @@ pub(super) fn nearest(
 pub(super) struct ShadowRay<'a> {
     pub(super) ray: &'a Ray,
     /// It does not meet the triangles at these slots.
-    pub(super) excluded: [Slot; 2],
+    pub(super) excluded: [TriangleRef; 2],
     /// What it passes.
     pub(super) passing: Passing,
     /// What may be passed in each leaf; in those beyond nothing.

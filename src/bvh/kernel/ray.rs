@@ -1,7 +1,7 @@
 //! What the tests of a ray share.
 
 use crate::bvh::node::TriangleLeaf;
-use crate::bvh::triangles::Slot;
+use crate::bvh::triangles::TriangleRef;
 use crate::math::Ray;
 use glam::{Vec3, Vec3A, Vec3Swizzles};
 
@@ -49,7 +49,7 @@ pub(in crate::bvh) struct Slabs {
     pub(super) o: Vec3A,
     /// −1/d.
     pub(super) minus_d_inv: Vec3A,
-    /// The same, [`FAR`] times.
+    /// −1/d times [`FAR`].
     pub(super) minus_d_inv_far: Vec3A,
     /// Index of the near plane of each axis in `Node::planes`; the far one is `near ^ 1`.
     pub(super) near: [u32; 4],
@@ -84,7 +84,7 @@ pub(super) struct Excluded {
 
 impl Excluded {
     #[inline(always)]
-    fn new(slot: Slot) -> Self {
+    fn new(slot: TriangleRef) -> Self {
         let (leaf, lane) = slot.place();
         Self { leaf: leaf as u32, others: !(1 << lane) }
     }
@@ -93,7 +93,7 @@ impl Excluded {
 impl Shear {
     /// Of a ray that does not meet the triangles at these slots.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, excluded: [Slot; 2]) -> Self {
+    pub(super) fn new(ray: &Ray, excluded: [TriangleRef; 2]) -> Self {
         // By look-ups: branches on random directions would be guessed wrong.
         let (size, negative) = (ray.d.abs(), ray.d.is_negative_bitmask() as usize);
         let longest = size.cmpeq(size.zxy().max(size).max(size.yzx())).bitmask() as usize;

@@ -6,7 +6,7 @@ macro_rules! kernels {
         use super::ray::{Shear, Slabs, plane_ahead};
         use super::{Entry, Found, Obstacle, ShadowRay, Stack};
         use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
-        use crate::bvh::triangles::Slot;
+        use crate::bvh::triangles::TriangleRef;
         use crate::math::Ray;
 
         /// γ₂, γ₃ and γ₅ (`math::gamma`).
@@ -59,7 +59,7 @@ macro_rules! kernels {
         /// third axis and vertices are points of the plane, the same for all triangles that share them. A rounded
         /// difference of products has the right sign unless it is 0; zeros are decided in f64.
         ///
-        /// Of each use there is a copy, which is so called once and inlined: results and what the loop about it holds stay
+        /// Instantiated for each caller (`NEAREST`) so that it inlines: results and the variables of the loop around it stay
         /// in registers.
         #[inline]
         $(#[$isa])?
@@ -177,10 +177,10 @@ macro_rules! kernels {
             nodes: &[Node],
             leaves: &[TriangleLeaf],
             ray: &Ray,
-            leaving: Slot,
+            excluded: TriangleRef,
             hit: &mut Found,
         ) -> bool {
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, [leaving, Slot::NONE]));
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, [excluded, TriangleRef::NONE]));
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
@@ -196,7 +196,7 @@ macro_rules! kernels {
                             hits &= hits - 1;
                             if t[lane] < t_max {
                                 t_max = t[lane];
-                                let slot = Slot::new(child & !LEAF, lane as u32);
+                                let slot = TriangleRef::new(child & !LEAF, lane as u32);
                                 *hit = Found::new(t[lane], v[lane] * det_inv[lane], w[lane] * det_inv[lane], slot);
                                 found = true;
                             }

@@ -19,9 +19,10 @@ const BY_POWER: f32 = 0.01;
 /// not known.
 const LEAST: f32 = 0.25;
 
-/// The choice among lights: by power where they are few, by what each can send to the receiver where they are many.
+/// The light sampler: chooses one of all lights, by power where they are few, by what each can send to the receiver where they are
+/// many.
 #[derive(Clone, Debug, Default)]
-pub struct Choice {
+pub struct LightSampler {
     /// By power; `None` where nothing shines.
     alias: Option<Alias>,
     /// Where there are many.
@@ -38,7 +39,7 @@ struct Many {
     irradiance: f32,
 }
 
-impl Choice {
+impl LightSampler {
     /// Among lights of these luminous `fluxes` (0: never chosen) in a scene of this radius.
     pub fn new(lights: &[Light], fluxes: &[f64], radius: f32) -> Self {
         let total: f64 = fluxes.iter().sum();
@@ -49,7 +50,7 @@ impl Choice {
         Self { alias, many }
     }
 
-    /// The same lights by power alone, however many they are: what the tree is measured against.
+    /// Chooses among these lights by power alone, however many they are: what the tree is measured against.
     pub fn by_power(self) -> Self {
         Self { many: None, ..self }
     }
