@@ -155,7 +155,7 @@ impl CoupledDiffuse {
         Self { scaled, f0, f90, average: average.max_element(), energy, film }
     }
 
-    /// The same base beneath the layers `above`, in place of those that it lies beneath now.
+    /// This base beneath the layers `above`, in place of those that it lies beneath now.
     pub(super) fn beneath(self, now: &[Layer], above: &[Layer]) -> Self {
         let (reflectance, average) = (self.reflectance(now), self.mean(above));
         Self { scaled: over(reflectance, average), average: average.max_element(), ..self }

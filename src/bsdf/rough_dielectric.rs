@@ -68,7 +68,7 @@ impl RoughDielectric {
         Self::with(DielectricEnergy::of(tables, eta), tint)
     }
 
-    /// The same interface with another factor on transmitted light.
+    /// This interface with another factor on transmitted light.
     #[inline]
     pub fn with_tint(&self, tint: Spectrum) -> Self {
         Self { tint, ..*self }

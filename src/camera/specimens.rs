@@ -11,7 +11,7 @@ pub struct Specimen {
     pub name: &'static str,
     /// As it was written: projection, lens and pose.
     pub written: desc::Camera,
-    /// The same with a film of [`SIZE`].
+    /// The camera ready for a film of [`SIZE`].
     pub camera: Camera,
 }
 

@@ -31,7 +31,7 @@ pub(crate) fn print(path: &Path, scene: &desc::Scene, compiled: &Scene, as_json:
     Ok(())
 }
 
-/// The same as JSON.
+/// Extensions and materials of a file as JSON.
 fn report(path: &Path, scene: &desc::Scene, materials: &[Conformance]) -> Value {
     let extension = |used: &desc::gltf::Use| json!({ "name": used.name, "required": used.required, "status": used.word(), "meaning": used.sentence() });
     let material = |c: &Conformance| match &c.most {

@@ -9,7 +9,7 @@ pub(crate) struct Pick {
     /// Seconds into the animations of glTF files, all of which play together [the pose that the nodes state]
     #[arg(long, value_name = "SECONDS", value_parser = args::finite, allow_negative_numbers = true)]
     at: Option<f64>,
-    /// The same as a frame: N/FPS seconds
+    /// Frame of the animations of glTF files: N/FPS seconds into them
     #[arg(long, value_name = "N", conflicts_with = "at", value_parser = args::finite, allow_negative_numbers = true)]
     frame: Option<f64>,
     /// Frames in a second

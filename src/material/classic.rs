@@ -60,7 +60,7 @@ pub(super) struct Conductor {
 /// Reflectance over the angle.
 #[derive(Clone, Debug)]
 pub(super) enum Reflectance {
-    /// The same everywhere, and exact.
+    /// Constant over the surface, and exact.
     Fixed(Fresnel),
     /// Reflectance at normal incidence.
     Schlick(ColorParam),

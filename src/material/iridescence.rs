@@ -25,7 +25,7 @@ impl Covering {
         (share > 0.0).then_some(Self { film: ThinFilm { eta: film.ior, thickness }, share })
     }
 
-    /// The same everywhere.
+    /// Whether the film is constant over the surface.
     pub(super) fn is_constant(iridescence: &desc::Iridescence) -> bool {
         iridescence.factor.texture.is_none() && iridescence.thickness_texture.is_none()
     }

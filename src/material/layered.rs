@@ -50,7 +50,7 @@ impl Layered {
         Self { base, anisotropy, sheen: layers.sheen, coat }
     }
 
-    /// The same everywhere, but for a coat that does not follow the normal of the base.
+    /// Whether the lobes are constant over the surface, but for a coat that does not follow the normal of the base.
     pub(super) fn is_constant(&self) -> bool {
         let untextured = |p: &desc::ScalarParam| p.texture.is_none();
         self.base.is_constant()

@@ -34,7 +34,7 @@ use specular_glossiness::SpecularGlossiness;
 #[derive(Clone, Debug)]
 pub struct Material {
     scattering: Scattering,
-    /// The same for interfaces to something other than vacuum; where it has an interior.
+    /// How it scatters at an interface to something other than vacuum; where it has an interior.
     between: Option<Scattering>,
     emission: Option<Emission>,
     normal_map: Option<NormalMap>,
@@ -46,7 +46,7 @@ pub struct Material {
 enum Scattering {
     /// Nothing.
     Absorb,
-    /// The same everywhere: without any work at a hit, and never copied.
+    /// Constant over the surface: no work at a hit, and never copied.
     Fixed(Box<Bsdf>),
     /// f = Σ weight · f_part.
     Sum(Vec<(f32, Part)>),
@@ -54,7 +54,7 @@ enum Scattering {
 
 #[derive(Clone, Debug)]
 enum Part {
-    /// The same everywhere: lobes with their layers.
+    /// Constant over the surface: lobes with their layers.
     Fixed(Box<Bsdf>),
     Diffuse(ColorParam),
     Mirror(ColorParam),

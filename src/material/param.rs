@@ -25,7 +25,7 @@ pub(super) fn nowhere<T>(f: impl FnOnce(Point) -> T) -> T {
     f(Point { uv: &[Vec2::ZERO; 2], color: Vec4::ONE, textures: &Textures::default(), eta: None })
 }
 
-/// The same everywhere.
+/// Whether a colour is constant over the surface.
 pub fn is_constant(p: &ColorParam) -> bool {
     p.texture.is_none() && !p.vertex_color
 }

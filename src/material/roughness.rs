@@ -61,7 +61,7 @@ pub(super) fn alpha_bounds(roughness: &Roughness) -> Option<[f32; 2]> {
 pub(super) enum Microsurface {
     /// None anywhere.
     Smooth,
-    /// The same everywhere.
+    /// Constant over the surface.
     Fixed(Micro),
     /// Of a texture, with the table of all roughnesses or, where there are two, of all pairs.
     Varying(Roughness, &'static EnergyTable),

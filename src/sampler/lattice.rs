@@ -56,7 +56,7 @@ impl Lattice {
         }
     }
 
-    /// The same point of a randomisation of its own, independent of this one, at dimension 0; another for every `branch`.
+    /// This sample's point of an independent randomisation, at dimension 0; another randomisation for every `branch`.
     #[inline]
     pub fn fork(&self, branch: u32) -> Self {
         Self { dimension: 0, key: fork_key(self.key, branch), ..*self }

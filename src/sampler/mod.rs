@@ -70,7 +70,7 @@ impl Sampler {
         }
     }
 
-    /// The same of all but lattices: apart from these, which are computed in place.
+    /// Two numbers of any sampler but a lattice; outlined, so that lattices are computed in place.
     #[inline(never)]
     fn next_2d_elsewhere(&mut self) -> [f32; 2] {
         match self {

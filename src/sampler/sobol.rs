@@ -30,7 +30,7 @@ impl Sobol {
         Self { reversed_index: owen_start(within.reverse_bits()), small: size <= 256, dimension: 0, key }
     }
 
-    /// The same point of a randomisation of its own, independent of this one, at dimension 0; another for every `branch`.
+    /// This sample's point of an independent randomisation, at dimension 0; another randomisation for every `branch`.
     #[inline]
     pub fn fork(&self, branch: u32) -> Self {
         Self { dimension: 0, key: fork_key(self.key, branch), ..*self }

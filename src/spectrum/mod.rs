@@ -21,7 +21,7 @@ impl Spectrum {
     /// All lanes 1.
     pub const ONE: Self = Self(Vec4::ONE);
 
-    /// The same value in every lane.
+    /// One value for all lanes.
     #[inline]
     pub const fn splat(x: f32) -> Self {
         Self(Vec4::splat(x))

@@ -128,7 +128,7 @@ impl Family {
         Self { name: name.into(), alpha: ALPHA, checks: Vec::new() }
     }
 
-    /// The same at another significance.
+    /// This family at another significance.
     pub fn with_alpha(self, alpha: f64) -> Self {
         Self { alpha, ..self }
     }
@@ -143,7 +143,7 @@ impl Family {
         self.replicated(name, exact, replicates, 0.0);
     }
 
-    /// The same in f32 arithmetic: a relative error of `rounding` is granted.
+    /// Adds replicates of an estimate in f32 arithmetic, which is granted a relative error of `rounding`.
     pub fn replicated(&mut self, name: impl Into<String>, exact: f64, replicates: &Moments, rounding: f64) {
         self.push(name, Evidence::replicated(exact, replicates, rounding));
     }

@@ -114,7 +114,7 @@ pub fn agreement(checks: &mut Family, name: &str, a: &Estimated, b: &Estimated) 
     judge(checks, name, b, &difference)
 }
 
-/// The same for replicates that were made with the same numbers, each of `a` with those of one of `b`: the error is that
+/// Tests replicates that were made with common random numbers, each of `a` with those of one of `b`: the error is that
 /// of their differences, which is small where the estimators are alike, and 0 where they are the same.
 pub fn paired(checks: &mut Family, name: &str, a: &Replicated, b: &Replicated) -> Option<Exhibit> {
     if a.size != b.size || a.images.len() != b.images.len() {

@@ -17,7 +17,7 @@ pub type Area = [usize; 4];
 /// Most pixels along a side that are kept of each replicate; larger images are averaged in blocks.
 const MOST: usize = 64;
 
-/// The same image, estimated several times with independent numbers.
+/// An image that was estimated several times with independent numbers.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Replicated {
     /// Width and height.

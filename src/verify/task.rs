@@ -51,7 +51,7 @@ impl Size {
 }
 
 impl Trial {
-    /// The same with a seed for a part of the task, so that its parts share no numbers.
+    /// This trial with a seed for a part of the task, so that its parts share no numbers.
     pub fn part(&self, name: &str) -> Self {
         Self { seed: stream(self.seed, name), ..*self }
     }

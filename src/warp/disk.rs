@@ -16,7 +16,7 @@ pub fn uniform_disk(u: [f32; 2]) -> Vec2 {
     r * direction
 }
 
-/// The same as radius (either sign) and unit vector, of which the first is known long before the second.
+/// The disk point of [`uniform_disk`] as radius (either sign) and unit vector, of which the first is known long before the second.
 #[inline]
 pub(super) fn disk_polar(u: [f32; 2]) -> (f32, Vec2) {
     let (a, b) = (2.0 * u[0] - 1.0, 2.0 * u[1] - 1.0);

@@ -49,7 +49,7 @@ impl Stencil {
         self.weights[i]
     }
 
-    /// The same among nodes that begin `by` later.
+    /// Weights that stay as they are, among nodes that begin `by` later.
     #[inline]
     pub(in crate::bsdf) fn shifted(self, by: usize) -> Self {
         Self { first: self.first + by as u32, ..self }

@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 pub enum Interface {
     /// Reflects; the Fresnel term comes later, by its powers.
     Mirror,
-    /// The same, where normals are distributed as Beckmann has them.
+    /// Reflects as a mirror whose microfacet normals follow Beckmann's distribution.
     BeckmannMirror,
     /// Reflects or refracts, exactly.
     Dielectric {

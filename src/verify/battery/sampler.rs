@@ -51,7 +51,7 @@ fn chi2_square(side: usize, points: impl Iterator<Item = [f32; 2]>) -> f64 {
     chi2_test(&counts, &vec![n / (side * side) as f64; side * side], 5.0).p
 }
 
-/// The same point of a replicate over seeds, pixels, replicates and dimensions in turn.
+/// One point of a replicate, over seeds, pixels, replicates and dimensions in turn, is uniform.
 fn uniformity(s: &Specimen, trial: &Trial, found: &mut Findings) {
     let (s, seed, size) = (*s, trial.seed, u64::from(s.replicate));
     let n: u32 = trial.work(1 << 15, 1 << 19);

@@ -51,7 +51,7 @@ pub(super) fn form(kind: Feature, draw: &mut Draw) -> Form {
     Form { shape: Shape::Mesh(Arc::new(mesh)), features }
 }
 
-/// The same mesh of so many triangles that copies of it are kept once.
+/// A ring of so many triangles that copies of it are kept once.
 pub(super) fn fine(draw: &mut Draw) -> Form {
     let mut features = BTreeSet::from([Feature::Ring, Feature::Instances]);
     let mesh = ring(draw, 48, 24);

@@ -1,6 +1,6 @@
 //! How each material of a file behaves beside the law that none sends on more than it receives: its largest albedo.
 //!
-//! The same measurement as of the topic `material`, cheaper and without a verdict: a number with its error for every
+//! The measurement of the topic `material`, cheaper and without a verdict: a number with its error for every
 //! material of the file, worn or not.
 
 use super::material::{Albedo, COSINES, albedo, in_words};

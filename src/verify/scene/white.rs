@@ -18,7 +18,7 @@ pub(in crate::verify) enum Dress {
     Written,
     /// Every material is [`lossless`] that can be.
     White,
-    /// The same, and shading normals are those of the triangles.
+    /// Every material is [`lossless`] that can be, and shading normals are those of the triangles.
     Flat,
 }
 

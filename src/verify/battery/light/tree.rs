@@ -137,7 +137,7 @@ fn nothing_is_lost(trial: &Trial, found: &mut Findings) {
     found.checks.bound("samples of lights that the tree never chooses", f64::from(lost), 0.0);
 }
 
-/// The same irradiance by both choices.
+/// Both choices of a light give one irradiance.
 fn irradiance(trial: &Trial, found: &mut Findings) {
     let (tree, n) = (outdoors(false), Vec3A::new(0.6, 0.64, 0.48));
     let power = tree.clone().by_power();

@@ -113,9 +113,7 @@ fn judge(bent: &Bent, trial: &Trial, found: &mut Findings) {
         }
     }
     found.checks.bound("f′(o, i) by radiance at o = by importance at i", worst[0], 1e-3);
-    if matches!(bent.subject.name, "diffuse" | "metal") {
-        found.checks.bound("density from o to i = that of the reverse at i", worst[1], 1e-2);
-    }
+    found.checks.bound("density from o to i = that of the reverse at i", worst[1], 1e-2);
     // At most c from light that leaves as it is, and 1 from what leaks.
     found.checks.holds("f′(o, i) |i·g| goes to 0 at the horizon as 3 |i·g|/π or less", horizon <= 3.001);
 }

@@ -29,7 +29,7 @@ enum Surface {
     Beckmann(Beckmann),
 }
 
-/// The same question to either.
+/// Asks either distribution.
 macro_rules! either {
     ($surface:expr, $s:ident => $answer:expr) => {
         match $surface {
@@ -65,7 +65,7 @@ const SURFACES: [[f32; 2]; 8] =
 
 /// Rounding of f32 in D where α is small.
 const ROUNDING: f64 = 1e-5;
-/// The same where h is found again from two directions.
+/// Rounding of f32 in D where α is small and h is found again from two directions.
 const HALF_VECTOR: f64 = 1e-4;
 /// Smallest relative bias that must be found.
 const AIM: f64 = 1e-3;
