@@ -57,7 +57,8 @@ pub struct Micro<M = Ggx> {
 
 /// α of a surface that is not smooth.
 fn clamped([ax, ay]: [f32; 2]) -> Ggx {
-    let clamp = |a: f32| a.max(super::MIN_ALPHA).min(1.0);
+    // Not `clamp`, which keeps NaN.
+    let clamp = |a: f32| if a > super::MIN_ALPHA { a.min(1.0) } else { super::MIN_ALPHA };
     Ggx { ax: clamp(ax), ay: clamp(ay) }
 }
 

@@ -64,7 +64,7 @@ fn blind(shading: &Shading, u: &Numbers, hemisphere: impl Fn([f32; 2]) -> (Vec3,
     if bsdf.transmits() {
         pdf *= 0.5;
     }
-    if !shading.vertex.front != (bsdf.transmits() && side < 0.5) {
+    if shading.vertex.front == (bsdf.transmits() && side < 0.5) {
         wi.z = -wi.z;
     }
     if pdf == 0.0 {

@@ -91,7 +91,7 @@ impl QuadricLight {
         let sight = Sight::new(reference, surface.p, surface.ng)?;
         let pdf = self.density(reference, surface.p, surface.ng, &sight, || point);
         let le = self.emitter.mean_le(&surface.uv, Vec4::ONE, sight.cos, textures);
-        (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then(|| LightSample {
+        (!le.is_black() && pdf > 0.0 && pdf.is_finite()).then_some(LightSample {
             wi: sight.wi,
             distance: sight.distance,
             p: surface.p,

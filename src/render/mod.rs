@@ -6,7 +6,7 @@ mod rounds;
 mod schedule;
 mod workers;
 
-pub use schedule::{Next, Pixels, Schedule};
+pub use schedule::{Decide, Next, Pixels, Schedule};
 
 use crate::camera::Camera;
 use crate::desc::{Filter, Integrator, SamplerKind, Strategy};

@@ -17,10 +17,13 @@ pub enum Schedule {
     Adaptive {
         /// Rounds that may be under way while the next is decided.
         lag: u32,
-        /// The decision: number of the round, and the sums.
-        decide: Box<dyn Fn(u32, &Film) -> Next + Send + Sync>,
+        /// The decision.
+        decide: Decide,
     },
 }
+
+/// What follows from the number of a round and the merged sums.
+pub type Decide = Box<dyn Fn(u32, &Film) -> Next + Send + Sync>;
 
 /// What follows a round.
 #[derive(Clone, Debug, PartialEq)]

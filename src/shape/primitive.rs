@@ -11,6 +11,7 @@ use glam::{Vec3, Vec3A};
 /// The triangles of meshes, eight of which share a leaf, are met by [`crate::bvh::TriangleBvh`] instead; what is found of them
 /// is the same.
 #[derive(Clone, Debug)]
+#[expect(clippy::large_enum_variant, reason = "quadrics are traced where they lie; triangles by themselves are rare")]
 pub enum Primitive {
     /// A triangle by itself.
     Triangle(Box<Triangle>),

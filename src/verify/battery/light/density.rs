@@ -195,7 +195,7 @@ impl Placed {
         Some(Compared {
             deviation: f64::from(deviation).max(0.0),
             promised: le == s.le,
-            unshadowed: !(alone && nearest) || !hidden,
+            unshadowed: !(alone && nearest && hidden),
         })
     }
 }
