@@ -74,7 +74,11 @@ pub(super) fn tasks() -> Vec<Task> {
     let names: Vec<_> = ["diffuse", "metal", "mirror", "glTF", "glass", "rough glass"].into();
     names
         .into_iter()
-        .flat_map(|name| BENDS.map(|bend| (name, bend)))
+        .flat_map(|name| {
+            // Diffuse and rough glass scatter to where all terms of f′ show; of the others one bend has to do.
+            let all = matches!(name, "diffuse" | "rough glass");
+            BENDS.into_iter().filter(move |bend| all || *bend == BENDS[1]).map(move |bend| (name, bend))
+        })
         .map(|(name, bend)| {
             Task::new(TOPIC, format!("{name}, by {bend}°"), move |trial, found| {
                 // Made here: a list of tasks asks for no tables.
