@@ -31,7 +31,7 @@ const SCENE: &str = r#"
     [material.metal]
     type = "conductor"
     metal = "Au"
-    roughness = [0.4, 0.2]
+    alpha = [0.3, 0.1]
     [material.glass]
     type = "dielectric"
     ior = 1.5
