@@ -3,12 +3,16 @@
 
 #[path = "../examples/faults/patch.rs"]
 mod patch;
+#[path = "../examples/faults/schemata.rs"]
+mod schemata;
 
 use patch::{Patch, load};
 use radianza::verify::battery;
+use schemata::{SWITCH, changes, combine};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
+use std::process::Command;
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
@@ -106,4 +110,103 @@ fn hunks_go_where_their_lines_are() {
     for gone in ["one\nTwo\n\n", "", "one\n", "two\n"] {
         assert!(x.apply(gone).is_err_and(|e| e.contains("no longer there")), "{gone}");
     }
+}
+
+/// A program of its own, with what the faults below change.
+const PROGRAM: &str = "\
+const TWO: f32 = 2.0;
+
+trait Shape {
+    fn side(&self) -> f32;
+
+    /// Of what is as high as it is wide.
+    fn area(&self) -> f32 {
+        self.side() * self.side() // π is not in it
+    }
+}
+
+struct Square(f32);
+
+impl Shape for Square {
+    fn side(&self) -> f32 {
+        self.0
+    }
+}
+
+mod inner {
+    pub(crate) fn twice(x: f32) -> f32 {
+        fn double(x: f32) -> f32 {
+            crate::TWO * x
+        }
+        let sum = |x: f32| double(x);
+        sum(x)
+    }
+
+    pub(crate) const fn three() -> u32 {
+        3
+    }
+
+    pub(crate) fn some() -> Option<impl Fn() -> u32> {
+        Some(|| three())
+    }
+}
+
+fn main() {
+    println!(\"{} {} {}\", Square(3.0).area(), inner::twice(1.0), inner::some().map_or(0, |f| f()));
+}
+";
+
+#[test]
+fn faults_in_bodies_are_chosen_while_the_program_runs() {
+    // Two in one function, one in another's inner function, one in the method of a trait's implementation and elsewhere.
+    let faults = [
+        (1, vec![("self.side() * self.side()", "self.side()")]),
+        (2, vec![("self.side() * self.side() // π is not in it", "{ let s = self.side(); s + s }")]),
+        (3, vec![("crate::TWO * x", "10.0 * x")]),
+        (7, vec![("self.0\n", "self.0 + 1.0\n"), ("sum(x)", "sum(x) + 1.0")]),
+    ];
+    let faults = faults.map(|(number, edits)| {
+        let planted = edits.iter().fold(PROGRAM.to_owned(), |text, (old, new)| text.replacen(old, new, 1));
+        (number, changes(PROGRAM, &planted).unwrap().expect("bodies alone"))
+    });
+    let (text, places) = combine(PROGRAM, &faults).unwrap();
+    let body = |number| places.iter().filter(|(n, _)| *n == number).map(|(_, range)| &text[range.clone()]).next_back();
+    assert_eq!(body(7).unwrap().lines().nth(5), Some("        sum(x) + 1.0"));
+
+    let folder = tempfile::tempdir().unwrap();
+    let (source, program) = (folder.path().join("main.rs"), folder.path().join("program"));
+    fs::write(&source, text + SWITCH).unwrap();
+    let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
+    let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&program).arg(&source).output().unwrap();
+    assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let prints = |number: &str| {
+        let output = Command::new(&program).env("RADIANZA_FAULT", number).output().unwrap();
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let numbers = ["", "0", "1", "2", "3", "7", "8"];
+    assert_eq!(
+        numbers.map(prints).map(|s| s.trim().to_owned()),
+        ["9 2 3", "9 2 3", "3 2 3", "6 2 3", "9 10 3", "16 3 3", "9 2 3"]
+    );
+}
+
+#[test]
+fn what_is_no_body_is_built_alone() {
+    for (old, new) in [
+        ("TWO: f32 = 2.0", "TWO: f32 = 3.0"),
+        ("struct Square(f32)", "struct Square(pub f32)"),
+        ("fn side(&self) -> f32;", "fn side(&self) -> f32 {\n        1.0\n    }"),
+        ("fn side(&self) -> f32 {", "fn side(self: &Self) -> f32 {"),
+        ("fn main()", "#[inline]\nfn main()"),
+        ("fn main()", "fn more() {}\n\nfn main()"),
+        ("        3\n", "        4\n"),
+        ("Some(|| three())", "Some(|| 4)"),
+    ] {
+        let planted = PROGRAM.replacen(old, new, 1);
+        assert_ne!(planted, PROGRAM, "{old}");
+        assert_eq!(changes(PROGRAM, &planted), Ok(None), "{new}");
+    }
+    assert!(changes(PROGRAM, "fn main() {").is_err());
+    assert_eq!(changes(PROGRAM, PROGRAM), Ok(Some(Vec::new())));
+    assert_eq!(combine(PROGRAM, &[]).unwrap(), (PROGRAM.to_owned(), Vec::new()));
 }

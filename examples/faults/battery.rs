@@ -1,15 +1,10 @@
-//! Building a tree's program and letting it verify itself.
+//! What the battery said, row by row.
 
 use crate::patch::Result;
 use serde::{Deserialize, Serialize};
-use std::fs::{self, File};
-use std::path::{Path, PathBuf};
-use std::process::{Command, ExitStatus, Stdio};
-use std::thread::sleep;
-use std::time::{Duration, Instant};
-
-/// How often a running battery is looked after.
-const TICK: Duration = Duration::from_millis(50);
+use std::fs;
+use std::path::Path;
+use std::process::ExitStatus;
 
 /// What the battery said.
 #[derive(Clone, Debug, Serialize, Deserialize)]
@@ -91,75 +86,8 @@ struct Check {
     bound: Option<f64>,
 }
 
-/// Where programs are built, and where they write.
-pub(crate) struct Workshop {
-    /// cargo's target folder, kept from fault to fault: dependencies are built once.
-    pub(crate) build: PathBuf,
-    /// Findings and complaints of the last run.
-    pub(crate) scratch: PathBuf,
-}
-
-impl Workshop {
-    /// Builds the program of `tree`.
-    ///
-    /// # Errors
-    /// With what the compiler said.
-    pub(crate) fn build(&self, tree: &Path) -> Result<()> {
-        let cargo = std::env::var_os("CARGO").unwrap_or_else(|| "cargo".into());
-        let output = Command::new(cargo)
-            .args(["build", "--quiet", "--profile", "faults", "--bin", "radianza", "--target-dir"])
-            .arg(&self.build)
-            .current_dir(tree)
-            .output()
-            .map_err(|e| format!("cargo: {e}"))?;
-        match output.status.success() {
-            true => Ok(()),
-            false => Err(format!("it does not build:\n{}", String::from_utf8_lossy(&output.stderr))),
-        }
-    }
-
-    /// Runs the battery of the program built last, or the given rows of it; an eighth of it where that is `quick`.
-    pub(crate) fn run(&self, tree: &Path, rows: &[String], quick: bool, limit: Option<Duration>) -> Result<Outcome> {
-        let [findings, complaints] = ["findings.json", "stderr.txt"].map(|name| self.scratch.join(name));
-        let _ = fs::remove_file(&findings);
-        let stderr = File::create(&complaints).map_err(|e| format!("{}: {e}", complaints.display()))?;
-        let program = self.build.join("faults").join(format!("radianza{}", std::env::consts::EXE_SUFFIX));
-        let mut command = Command::new(&program);
-        command.args(["verify", "--quiet", "--json"]).arg(&findings).current_dir(tree);
-        if quick {
-            command.arg("--quick");
-        }
-        rows.iter().for_each(|row| {
-            command.arg("--only").arg(format!("{row}/"));
-        });
-        let start = Instant::now();
-        let mut child =
-            command.stdout(Stdio::null()).stderr(stderr).spawn().map_err(|e| format!("{}: {e}", program.display()))?;
-        let end = loop {
-            match child.try_wait().map_err(|e| e.to_string())? {
-                Some(status) => break Some(status),
-                None if limit.is_some_and(|limit| start.elapsed() > limit) => break None,
-                None => sleep(TICK),
-            }
-        };
-        let seconds = start.elapsed().as_secs_f64();
-        let Some(status) = end else {
-            child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
-            return Ok(Outcome {
-                rows: Vec::new(),
-                ended: Some(format!("hangs: stopped after {seconds:.0} s")),
-                seconds,
-            });
-        };
-        match fs::read(&findings) {
-            Ok(json) => Ok(Outcome { rows: by_row(&json)?, ended: None, seconds }),
-            Err(_) => Ok(Outcome { rows: Vec::new(), ended: Some(crash(status, &complaints)), seconds }),
-        }
-    }
-}
-
 /// How a program ended that gave no findings.
-fn crash(status: ExitStatus, complaints: &Path) -> String {
+pub(crate) fn crash(status: ExitStatus, complaints: &Path) -> String {
     let text = fs::read_to_string(complaints).unwrap_or_default();
     // A panic's place is in the line with that word, its message in the next.
     let panic = text.lines().skip_while(|line| !line.contains("panicked")).nth(1);
@@ -168,7 +96,7 @@ fn crash(status: ExitStatus, complaints: &Path) -> String {
 }
 
 /// The findings of a run, row by row.
-fn by_row(json: &[u8]) -> Result<Vec<Row>> {
+pub(crate) fn by_row(json: &[u8]) -> Result<Vec<Row>> {
     let document: Document = serde_json::from_slice(json).map_err(|e| format!("the findings cannot be read: {e}"))?;
     let mut rows: Vec<Row> = Vec::new();
     for section in &document.sections {

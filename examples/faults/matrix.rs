@@ -7,8 +7,8 @@ use std::fmt::Write;
 /// What stands at the top of the written matrix.
 const HEAD: &str = "# Planted faults
 
-Each is a small patch in `reference/faults/`. One at a time is applied to a copy of the tree, the program is built and
-verifies itself; a fault counts as caught by the rows in which a check fails. The unmodified tree passes all of them.
+Each is a small patch in `reference/faults/`. One at a time is planted in a copy of the tree, whose program verifies itself;
+a fault counts as caught by the rows in which a check fails. The unmodified tree passes all of them.
 Written by `cargo run --release --example faults -- --write`, which fails where a fault is caught by nothing, where a row
 that a patch names does not notice it, or where a row notices none. ● has noticed, ○ has not. Every row was
 asked as `verify --quick` asks it: a third of its subjects at an eighth of the work, so that a small effect may hide behind

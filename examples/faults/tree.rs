@@ -1,6 +1,6 @@
-//! The copy of the tree in which faults are planted.
+//! The copies of the tree in which faults are planted.
 
-use crate::patch::{Patch, Result};
+use crate::patch::{FilePatch, Patch, Result};
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};
@@ -10,19 +10,16 @@ use std::path::{Path, PathBuf};
 const LEFT_OUT: [&str; 6] = ["target", "out", "reference", "examples", "tests", "README.md"];
 
 /// Files by their path from the root.
-type Files = BTreeMap<PathBuf, Vec<u8>>;
+pub(crate) type Files = BTreeMap<PathBuf, Vec<u8>>;
 
-/// The original, in memory, and where its copy stands. A file of the copy is written only where it differs, so that
-/// cargo builds no more than what a fault changes.
+/// The original, in memory.
 pub(crate) struct Tree {
     original: Files,
-    /// Where the copy stands.
-    pub(crate) copy: PathBuf,
 }
 
 impl Tree {
-    /// Copies `root` to `copy`, and takes away what is only there.
-    pub(crate) fn new(root: &Path, copy: PathBuf) -> Result<Self> {
+    /// Reads what the program below `root` is built from.
+    pub(crate) fn new(root: &Path) -> Result<Self> {
         let mut original = Files::new();
         for entry in entries(root)? {
             let name = entry.file_name().unwrap_or_default().to_string_lossy();
@@ -30,26 +27,26 @@ impl Tree {
                 read(root, &entry, &mut original)?;
             }
         }
-        let tree = Self { original, copy };
+        Ok(Self { original })
+    }
+
+    /// Makes the folder `copy` equal to the original but for the files of `changed`. A file is written only where it
+    /// differs, so that cargo builds no more than what has changed; what belongs to neither is taken away.
+    pub(crate) fn copy(&self, copy: &Path, changed: &Files) -> Result<()> {
         let mut old = Files::new();
-        if tree.copy.exists() {
-            read(&tree.copy, &tree.copy, &mut old)?;
+        if copy.exists() {
+            read(copy, copy, &mut old)?;
         }
-        for path in old.keys().filter(|path| !tree.original.contains_key(*path)) {
-            fs::remove_file(tree.copy.join(path)).map_err(|e| format!("{}: {e}", path.display()))?;
+        for path in old.keys().filter(|path| !self.original.contains_key(*path)) {
+            fs::remove_file(copy.join(path)).map_err(|e| format!("{}: {e}", path.display()))?;
         }
-        tree.restore()?;
-        Ok(tree)
-    }
-
-    /// Makes the copy equal to the original.
-    pub(crate) fn restore(&self) -> Result<()> {
-        self.original.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
-    }
-
-    /// Plants a fault in the copy.
-    pub(crate) fn plant(&self, patch: &Patch) -> Result<()> {
-        self.planted(patch)?.iter().try_for_each(|(path, bytes)| self.write(path, bytes))
+        for (path, bytes) in &self.original {
+            let bytes = changed.get(path).unwrap_or(bytes);
+            if old.get(path) != Some(bytes) {
+                write(&copy.join(path), bytes)?;
+            }
+        }
+        Ok(())
     }
 
     /// A number that tells trees apart: of the original, or with a fault in it.
@@ -62,25 +59,26 @@ impl Tree {
         Ok(hasher.finish())
     }
 
+    /// The text of a file.
+    pub(crate) fn text(&self, path: &Path) -> Result<&str> {
+        let bytes = self.original.get(path).ok_or_else(|| format!("{} is not there", path.display()))?;
+        std::str::from_utf8(bytes).map_err(|e| format!("{}: {e}", path.display()))
+    }
+
     /// The files that a fault changes, as it leaves them.
-    fn planted(&self, patch: &Patch) -> Result<Files> {
-        let one = |file: &crate::patch::FilePatch| {
+    pub(crate) fn planted(&self, patch: &Patch) -> Result<Files> {
+        let one = |file: &FilePatch| {
             let path = PathBuf::from(&file.path);
-            let bytes = self.original.get(&path).ok_or_else(|| format!("{} is not there", file.path))?;
-            let text = std::str::from_utf8(bytes).map_err(|e| format!("{}: {e}", file.path))?;
-            Ok((path, file.apply(text)?.into_bytes()))
+            let text = file.apply(self.text(&path)?)?;
+            Ok((path, text.into_bytes()))
         };
         patch.files.iter().map(one).collect()
     }
+}
 
-    fn write(&self, path: &Path, bytes: &[u8]) -> Result<()> {
-        let to = self.copy.join(path);
-        if fs::read(&to).is_ok_and(|old| old == bytes) {
-            return Ok(());
-        }
-        let folder = to.parent().unwrap_or(&self.copy);
-        fs::create_dir_all(folder).and_then(|()| fs::write(&to, bytes)).map_err(|e| format!("{}: {e}", to.display()))
-    }
+fn write(to: &Path, bytes: &[u8]) -> Result<()> {
+    let folder = to.parent().unwrap_or(to);
+    fs::create_dir_all(folder).and_then(|()| fs::write(to, bytes)).map_err(|e| format!("{}: {e}", to.display()))
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>> {
