@@ -8,7 +8,7 @@ mod schemata;
 
 use patch::{Patch, load};
 use radianza::verify::battery;
-use schemata::{SWITCH, changes, combine};
+use schemata::{RECORD, SWITCH, changes, combine};
 use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
@@ -151,7 +151,14 @@ mod inner {
     }
 }
 
+fn idle() -> u32 {
+    5
+}
+
 fn main() {
+    if std::env::args().count() > 1 {
+        idle();
+    }
     println!(\"{} {} {}\", Square(3.0).area(), inner::twice(1.0), inner::some().map_or(0, |f| f()));
 }
 ";
@@ -164,6 +171,7 @@ fn faults_in_bodies_are_chosen_while_the_program_runs() {
         (2, vec![("self.side() * self.side() // π is not in it", "{ let s = self.side(); s + s }")]),
         (3, vec![("crate::TWO * x", "10.0 * x")]),
         (7, vec![("self.0\n", "self.0 + 1.0\n"), ("sum(x)", "sum(x) + 1.0")]),
+        (8, vec![("    5\n", "    6\n")]),
     ];
     let faults = faults.map(|(number, edits)| {
         let planted = edits.iter().fold(PROGRAM.to_owned(), |text, (old, new)| text.replacen(old, new, 1));
@@ -179,8 +187,10 @@ fn faults_in_bodies_are_chosen_while_the_program_runs() {
     let rustc = std::env::var_os("RUSTC").unwrap_or_else(|| "rustc".into());
     let built = Command::new(rustc).args(["--edition", "2024", "-o"]).arg(&program).arg(&source).output().unwrap();
     assert!(built.status.success(), "{}", String::from_utf8_lossy(&built.stderr));
+    let record = folder.path().join("reached");
     let prints = |number: &str| {
-        let output = Command::new(&program).env("RADIANZA_FAULT", number).output().unwrap();
+        let mut command = Command::new(&program);
+        let output = command.env("RADIANZA_FAULT", number).env("RADIANZA_REACHED", &record).output().unwrap();
         String::from_utf8(output.stdout).unwrap()
     };
     let numbers = ["", "0", "1", "2", "3", "7", "8"];
@@ -188,6 +198,13 @@ fn faults_in_bodies_are_chosen_while_the_program_runs() {
         numbers.map(prints).map(|s| s.trim().to_owned()),
         ["9 2 3", "9 2 3", "3 2 3", "6 2 3", "9 10 3", "16 3 3", "9 2 3"]
     );
+
+    // The faults whose functions run, each once.
+    assert!(!record.exists());
+    assert_eq!(prints(&RECORD.to_string()).trim(), "9 2 3");
+    let reached = fs::read_to_string(&record).unwrap();
+    assert_eq!(reached.lines().collect::<BTreeSet<_>>(), BTreeSet::from(["1", "2", "3", "7"]));
+    assert_eq!(reached.lines().count(), 4);
 }
 
 #[test]

@@ -11,6 +11,9 @@ use std::process::ExitStatus;
 pub(crate) struct Outcome {
     /// Every row that was run, in its order.
     pub(crate) rows: Vec<Row>,
+    /// Names of all subjects that were run, each behind its row: `A1/lambert`.
+    #[serde(default)]
+    pub(crate) subjects: Vec<String>,
     /// Where there was no verdict: how the program ended instead.
     pub(crate) ended: Option<String>,
     /// Wall-clock time \[s\].
@@ -28,12 +31,42 @@ pub(crate) struct Row {
     pub(crate) checks: usize,
     /// The first that failed, with its z or p.
     pub(crate) first: Option<String>,
+    /// Asked in full after a quick look.
+    #[serde(default)]
+    pub(crate) full: bool,
 }
 
 impl Outcome {
+    /// Where nothing was run.
+    pub(crate) fn nothing() -> Self {
+        Self { rows: Vec::new(), subjects: Vec::new(), ended: None, seconds: 0.0 }
+    }
+
+    /// Where a program ended without findings.
+    pub(crate) fn ended(how: String, seconds: f64) -> Self {
+        Self { ended: Some(how), seconds, ..Self::nothing() }
+    }
+
+    /// The findings of a run, row by row.
+    pub(crate) fn read(json: &[u8], seconds: f64) -> Result<Self> {
+        let document: Document =
+            serde_json::from_slice(json).map_err(|e| format!("the findings cannot be read: {e}"))?;
+        let name = |section: &Section| format!("{}/{}", section.topic, section.subject);
+        let subjects = document.sections.iter().map(name).collect();
+        Ok(Self { rows: by_row(&document), subjects, ended: None, seconds })
+    }
+
+    /// With the rows of `sound` that were not run, because the fault's code is not run in them: nothing is noticed there.
+    pub(crate) fn filled(mut self, sound: &Self) -> Self {
+        let run = |row: &&Row| self.rows.iter().any(|known| known.id == row.id);
+        let rest: Vec<Row> = sound.rows.iter().filter(|row| !run(row)).cloned().collect();
+        self.rows.extend(rest);
+        self
+    }
+
     /// What was found of the battery, and what of some of its rows again, with more work: the latter counts there.
     pub(crate) fn with(mut self, again: Self) -> Self {
-        for row in again.rows {
+        for row in again.rows.into_iter().map(|row| Row { full: true, ..row }) {
             match self.rows.iter_mut().find(|known| known.id == row.id) {
                 Some(known) => *known = row,
                 None => self.rows.push(row),
@@ -95,13 +128,12 @@ pub(crate) fn crash(status: ExitStatus, complaints: &Path) -> String {
     format!("crashes: {status}, {last}")
 }
 
-/// The findings of a run, row by row.
-pub(crate) fn by_row(json: &[u8]) -> Result<Vec<Row>> {
-    let document: Document = serde_json::from_slice(json).map_err(|e| format!("the findings cannot be read: {e}"))?;
+/// The rows of findings, in their order.
+fn by_row(document: &Document) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for section in &document.sections {
         let index = rows.iter().position(|row| row.id == section.topic).unwrap_or_else(|| {
-            rows.push(Row { id: section.topic.clone(), failed: 0, checks: 0, first: None });
+            rows.push(Row { id: section.topic.clone(), failed: 0, checks: 0, first: None, full: false });
             rows.len() - 1
         });
         let row = &mut rows[index];
@@ -112,7 +144,7 @@ pub(crate) fn by_row(json: &[u8]) -> Result<Vec<Row>> {
             row.first.get_or_insert_with(first);
         }
     }
-    Ok(rows)
+    rows
 }
 
 impl Check {

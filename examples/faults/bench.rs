@@ -3,6 +3,7 @@
 use crate::battery::Outcome;
 use crate::many::Many;
 use crate::patch::{Patch, Result};
+use crate::reach::Reach;
 use crate::tree::Tree;
 use crate::workshop::{Run, Workshop};
 use std::fs;
@@ -10,7 +11,7 @@ use std::path::{Path, PathBuf};
 use std::time::Duration;
 
 /// Which rows are run.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Extent {
     /// Those that patches name: quickly, and in full where a quick look does not notice.
     Named,
@@ -35,10 +36,13 @@ impl Extent {
 pub(crate) struct Bench {
     /// All faults.
     patches: Vec<Patch>,
+    extent: Extent,
     tree: Tree,
     workshop: Workshop,
     /// The program with many faults, once it is needed.
     many: Option<Many>,
+    /// Which subjects run which of them, once that is needed.
+    reach: Option<Reach>,
     /// Where findings are kept.
     found: PathBuf,
     /// Findings of earlier trees count for faults.
@@ -46,70 +50,95 @@ pub(crate) struct Bench {
 }
 
 impl Bench {
-    pub(crate) fn new(root: &Path, patches: Vec<Patch>, stale: bool) -> Result<Self> {
+    pub(crate) fn new(root: &Path, patches: Vec<Patch>, extent: Extent, stale: bool) -> Result<Self> {
         let folder = root.join("target/faults");
         let found = folder.join("found");
         fs::create_dir_all(&found).map_err(|e| format!("{}: {e}", found.display()))?;
-        Ok(Self { patches, tree: Tree::new(root)?, workshop: Workshop::new(folder), many: None, found, stale })
+        let (tree, workshop) = (Tree::new(root)?, Workshop::new(folder));
+        Ok(Self { patches, extent, tree, workshop, many: None, reach: None, found, stale })
     }
 
-    /// What the battery says to a fault, or to none; from an earlier run where it met the same tree.
-    pub(crate) fn outcome(
-        &mut self,
-        patch: Option<&Patch>,
-        named: &[String],
-        extent: Extent,
-        limit: Option<Duration>,
-    ) -> Result<Outcome> {
-        let (name, key) = (patch.map_or("unmodified", |patch| &patch.name), extent.key(named));
-        let mut file = self.found.join(format!("{name}-{:016x}{key}.json", self.tree.hash(patch)?));
-        if self.stale && patch.is_some() && !file.exists() {
-            file = self.earlier(name, &key)?.unwrap_or(file);
+    /// What the battery says to the tree as it is: as quickly as faults are asked, or one row in full.
+    pub(crate) fn sound(&mut self, row: Option<&str>) -> Result<Outcome> {
+        let quick = row.is_none() && self.extent != Extent::Whole;
+        let key = row.unwrap_or(if quick { "-quick" } else { "" });
+        let file = self.found.join(format!("unmodified-{:016x}{key}.json", self.tree.hash(None)?));
+        if let Some(outcome) = kept(&file) {
+            return Ok(outcome);
         }
-        if let Some(found) = fs::read(&file).ok().and_then(|json| serde_json::from_slice(&json).ok()) {
-            return Ok(found);
+        let run = Run { program: &self.many()?.program.clone(), fault: 0, limit: None };
+        let only: Vec<String> = row.iter().map(|row| format!("{row}/")).collect();
+        keep(&file, self.workshop.run(run, &only, quick)?)
+    }
+
+    /// What the battery says to a fault; from an earlier run where it met the same tree.
+    pub(crate) fn outcome(&mut self, patch: &Patch, sound: &Outcome, limit: Duration) -> Result<Outcome> {
+        let key = self.extent.key(&patch.rows);
+        let mut file = self.found.join(format!("{}-{:016x}{key}.json", patch.name, self.tree.hash(Some(patch))?));
+        if self.stale && !file.exists() {
+            file = self.earlier(&patch.name, &key)?.unwrap_or(file);
         }
-        let outcome = self.ask(patch, named, extent, limit)?;
-        let json = serde_json::to_vec(&outcome).map_err(|e| e.to_string())?;
-        fs::write(&file, json).map_err(|e| format!("{}: {e}", file.display()))?;
-        Ok(outcome)
+        match kept(&file) {
+            Some(outcome) => Ok(outcome),
+            None => keep(&file, self.ask(patch, sound, limit)?),
+        }
     }
 
     /// Builds where need be, and runs.
-    fn ask(
-        &mut self,
-        patch: Option<&Patch>,
-        named: &[String],
-        extent: Extent,
-        limit: Option<Duration>,
-    ) -> Result<Outcome> {
+    fn ask(&mut self, patch: &Patch, sound: &Outcome, limit: Duration) -> Result<Outcome> {
+        let (mut program, fault) = {
+            let many = self.many()?;
+            (many.program.clone(), many.numbers.get(&patch.name).copied())
+        };
+        if fault.is_none() {
+            let built = self.workshop.build("single", &self.tree, &self.tree.planted(patch)?)?;
+            program = built.map_err(|broken| broken.message)?;
+        }
+        let run = Run { program: &program, fault: fault.unwrap_or(0), limit: Some(limit) };
+        if self.extent == Extent::Whole {
+            return self.workshop.run(run, &[], false);
+        }
+
+        // Quickly, in all subjects that may notice.
+        let named = |subject: &str| patch.rows.iter().any(|row| subject.split('/').next() == Some(row));
+        let all = self.extent == Extent::Quick;
+        let reach = self.reach(&sound.subjects)?;
+        let only: Vec<String> = reach.subjects(fault).filter(|subject| all || named(subject)).cloned().collect();
+        let quick = match only.is_empty() {
+            true => Outcome::nothing(),
+            false => self.workshop.run(run, &only, true)?,
+        };
+        if quick.ended.is_some() {
+            return Ok(quick);
+        }
+
+        // In full, where rows that should have noticed have not.
+        let missed = patch.rows.iter().filter(|row| !quick.notices(row)).map(|row| format!("{row}/"));
+        let missed: Vec<String> = missed.collect();
+        let quick = if all { quick.filled(sound) } else { quick };
+        match missed.is_empty() {
+            true => Ok(quick),
+            false => Ok(quick.with(self.workshop.run(run, &missed, false)?)),
+        }
+    }
+
+    fn many(&mut self) -> Result<&Many> {
         if self.many.is_none() {
             let many = Many::build(&self.tree, &self.patches, &self.workshop)?;
             println!("{} of {} faults are in one program", many.numbers.len(), self.patches.len());
             self.many = Some(many);
         }
-        let many = self.many.as_ref().ok_or("there is no program")?;
-        let number = patch.map_or(Some(0), |patch| many.numbers.get(&patch.name).copied());
-        let alone;
-        let run = match (number, patch) {
-            (None, Some(patch)) => {
-                let planted = self.tree.planted(patch)?;
-                alone = self.workshop.build("single", &self.tree, &planted)?.map_err(|broken| broken.message)?;
-                Run { program: &alone, fault: 0, limit }
-            }
-            (number, _) => Run { program: &many.program, fault: number.unwrap_or(0), limit },
-        };
-        let rows = match extent {
-            Extent::Whole => return self.workshop.run(run, &[], false),
-            Extent::Named => named,
-            Extent::Quick => &[],
-        };
-        let quick = self.workshop.run(run, rows, true)?;
-        let missed: Vec<String> = named.iter().filter(|row| !quick.notices(row)).cloned().collect();
-        if quick.ended.is_some() || missed.is_empty() {
-            return Ok(quick);
+        self.many.as_ref().ok_or_else(|| "there is no program".into())
+    }
+
+    fn reach(&mut self, subjects: &[String]) -> Result<&Reach> {
+        if self.reach.is_none() {
+            let (tree, faults) = (self.tree.hash(None)?, self.many()?.hash);
+            let file = self.found.join(format!("reach-{tree:016x}-{faults:016x}.json"));
+            let many = self.many.as_ref().ok_or("there is no program")?;
+            self.reach = Some(Reach::record(many, subjects, &self.workshop, &file)?);
         }
-        Ok(quick.with(self.workshop.run(run, &missed, false)?))
+        self.reach.as_ref().ok_or_else(|| "nothing is known of the subjects".into())
     }
 
     /// What some earlier tree with this fault was found to do in these rows.
@@ -123,4 +152,14 @@ impl Bench {
         };
         Ok(files.filter_map(|entry| Some(entry.ok()?.path())).find(matches))
     }
+}
+
+fn kept(file: &Path) -> Option<Outcome> {
+    serde_json::from_slice(&fs::read(file).ok()?).ok()
+}
+
+fn keep(file: &Path, outcome: Outcome) -> Result<Outcome> {
+    let json = serde_json::to_vec(&outcome).map_err(|e| e.to_string())?;
+    fs::write(file, json).map_err(|e| format!("{}: {e}", file.display()))?;
+    Ok(outcome)
 }

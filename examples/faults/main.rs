@@ -11,7 +11,7 @@
 //! One program holds all faults that change bodies of functions alone, and each run chooses one of them
 //! ([`schemata`]); the others are built one by one.
 //!
-//! Every row is asked as `verify --quick` asks it; one that the patch names and that notices nothing then, is asked again in
+//! Every row is asked as `verify --quick` asks it, in the subjects that run the fault's code; one that the patch names and that notices nothing then, is asked again in
 //! full (with `--whole` all are). Exit code 1 where a fault is caught by nothing or a row that its patch names does not notice
 //! it, where a patch does not apply or build, where the unmodified tree fails, where a budget is too short for any fault, and,
 //! when all were planted, where a row notices none. What was found for a tree is kept in `target/faults/found`, so that an
@@ -22,6 +22,7 @@ mod bench;
 mod many;
 mod matrix;
 mod patch;
+mod reach;
 mod schemata;
 mod tree;
 mod workshop;
@@ -30,6 +31,7 @@ use bench::{Bench, Extent};
 use clap::Parser;
 use matrix::Matrix;
 use patch::{Patch, Result};
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 use std::process::ExitCode;
@@ -89,12 +91,8 @@ fn run(arguments: &Arguments) -> Result<bool> {
     }
 
     // The tree as it is must pass: what fails there says nothing about a fault.
-    let extent = Extent::of(arguments);
-    let mut bench = Bench::new(root, all.clone(), arguments.stale)?;
-    let mut named: Vec<String> = patches.iter().flat_map(|patch| patch.rows.clone()).collect();
-    named.sort();
-    named.dedup();
-    let sound = bench.outcome(None, &named, extent, None)?;
+    let mut bench = Bench::new(root, all.clone(), Extent::of(arguments), arguments.stale)?;
+    let sound = bench.sound(None)?;
     if let Some(first) = sound.first() {
         return Err(format!("the unmodified tree fails: {first}"));
     }
@@ -108,11 +106,20 @@ fn run(arguments: &Arguments) -> Result<bool> {
             println!("the time is up: {} of {} faults were not planted", patches.len() - i, patches.len());
             break;
         }
-        let outcome = bench.outcome(Some(patch), &patch.rows, extent, Some(limit));
+        let outcome = bench.outcome(patch, &sound, limit);
         let outcome = outcome.map_err(|e| format!("{}: {e}", patch.name))?;
         let first = outcome.first().unwrap_or("NOTHING NOTICES");
         println!("[{}/{}] {}: {first} ({:.0} s)", i + 1, patches.len(), patch.name, outcome.seconds);
         faults.push((*patch, outcome));
+    }
+
+    // Rows that a fault was asked for in full must pass in full without it.
+    let rows = faults.iter().flat_map(|(_, outcome)| &outcome.rows);
+    let in_full: BTreeSet<String> = rows.filter(|row| row.full).map(|row| row.id.clone()).collect();
+    for row in in_full {
+        if let Some(first) = bench.sound(Some(&row))?.first() {
+            return Err(format!("the unmodified tree fails in full: {first}"));
+        }
     }
 
     faults.sort_by(|(a, _), (b, _)| a.name.cmp(&b.name));

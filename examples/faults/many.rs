@@ -5,6 +5,7 @@ use crate::schemata::{Change, Number, SWITCH, changes, combine};
 use crate::tree::{Files, Tree};
 use crate::workshop::{Broken, Workshop};
 use std::collections::{BTreeMap, BTreeSet};
+use std::hash::{DefaultHasher, Hash, Hasher};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 
@@ -17,6 +18,8 @@ pub(crate) struct Many {
     pub(crate) program: PathBuf,
     /// The faults that it holds, by name.
     pub(crate) numbers: BTreeMap<String, Number>,
+    /// A number that tells such programs of one tree apart.
+    pub(crate) hash: u64,
 }
 
 /// The bodies of functions that a fault changes, by file.
@@ -45,7 +48,9 @@ impl Many {
             let broken = match workshop.build("many", tree, &written.files)? {
                 Ok(program) => {
                     let numbers = faults.keys().map(|number| (names[number].clone(), *number)).collect();
-                    return Ok(Self { program, numbers });
+                    let mut hasher = DefaultHasher::new();
+                    written.files.hash(&mut hasher);
+                    return Ok(Self { program, numbers, hash: hasher.finish() });
                 }
                 Err(broken) => broken,
             };

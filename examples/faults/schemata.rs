@@ -147,6 +147,9 @@ pub(crate) fn combine(original: &str, faults: &[(Number, Vec<Change>)]) -> Resul
     Ok((text, places))
 }
 
+/// In place of a fault's number: nothing is planted, and the numbers of all faults whose functions run are written down.
+pub(crate) const RECORD: Number = Number::MAX;
+
 /// What the library has in addition: whether a fault is planted, as the environment says. The name `radianza` leads to it
 /// from the library and from the program alike.
 pub(crate) const SWITCH: &str = r#"
@@ -157,6 +160,22 @@ extern crate self as radianza;
 pub fn planted(number: u32) -> bool {
     static PLANTED: std::sync::LazyLock<u32> =
         std::sync::LazyLock::new(|| std::env::var("RADIANZA_FAULT").ok().and_then(|text| text.parse().ok()).unwrap_or(0));
-    *PLANTED == number
+    let planted = *PLANTED;
+    planted == number || planted == u32::MAX && reached(number)
+}
+
+/// Writes the number of a function that runs to the file `RADIANZA_REACHED`, once, and plants nothing.
+#[cold]
+fn reached(number: u32) -> bool {
+    use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+    static REACHED: [AtomicBool; 4096] = [const { AtomicBool::new(false) }; 4096];
+    let known = &REACHED[number as usize];
+    if !known.load(Relaxed) && !known.swap(true, Relaxed) {
+        let path = std::env::var_os("RADIANZA_REACHED").expect("a file to write to");
+        let file = std::fs::OpenOptions::new().create(true).append(true).open(path);
+        let written = file.and_then(|mut file| std::io::Write::write_all(&mut file, format!("{number}\n").as_bytes()));
+        written.expect("it can be written");
+    }
+    false
 }
 "#;

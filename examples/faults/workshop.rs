@@ -1,10 +1,11 @@
 //! Building programs, and letting them verify themselves.
 
-use crate::battery::{Outcome, by_row, crash};
+use crate::battery::{Outcome, crash};
 use crate::patch::Result;
-use crate::schemata::Number;
+use crate::schemata::{Number, RECORD};
 use crate::tree::{Files, Tree};
 use serde::Deserialize;
+use std::collections::BTreeSet;
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -74,18 +75,20 @@ impl Workshop {
         Ok(Ok(program))
     }
 
-    /// Runs the battery of a program, or the given rows of it; an eighth of it where that is `quick`.
-    pub(crate) fn run(&self, run: Run, rows: &[String], quick: bool) -> Result<Outcome> {
+    /// Runs the battery of a program, or what has one of the given patterns in its name; an eighth of it where that is
+    /// `quick`.
+    pub(crate) fn run(&self, run: Run, only: &[String], quick: bool) -> Result<Outcome> {
         let [findings, complaints] = ["findings.json", "stderr.txt"].map(|name| self.folder.join(name));
         let _ = fs::remove_file(&findings);
         let stderr = File::create(&complaints).map_err(|e| format!("{}: {e}", complaints.display()))?;
         let mut command = Command::new(run.program);
         command.args(["verify", "--quiet", "--json"]).arg(&findings).env("RADIANZA_FAULT", run.fault.to_string());
+        command.env("RADIANZA_REACHED", self.reached());
         if quick {
             command.arg("--quick");
         }
-        rows.iter().for_each(|row| {
-            command.arg("--only").arg(format!("{row}/"));
+        only.iter().for_each(|pattern| {
+            command.arg("--only").arg(pattern);
         });
         let start = Instant::now();
         let mut child = command
@@ -102,15 +105,31 @@ impl Workshop {
             }
         };
         let seconds = start.elapsed().as_secs_f64();
-        let ended = |how| Outcome { rows: Vec::new(), ended: Some(how), seconds };
         let Some(status) = end else {
             child.kill().and_then(|()| child.wait()).map_err(|e| e.to_string())?;
-            return Ok(ended(format!("hangs: stopped after {seconds:.0} s")));
+            return Ok(Outcome::ended(format!("hangs: stopped after {seconds:.0} s"), seconds));
         };
         match fs::read(&findings) {
-            Ok(json) => Ok(Outcome { rows: by_row(&json)?, ended: None, seconds }),
-            Err(_) => Ok(ended(crash(status, &complaints))),
+            Ok(json) => Outcome::read(&json, seconds),
+            Err(_) => Ok(Outcome::ended(crash(status, &complaints), seconds)),
         }
+    }
+}
+
+impl Workshop {
+    /// The faults of a program whose functions one subject of the quick battery runs.
+    pub(crate) fn record(&self, program: &Path, subject: &str) -> Result<BTreeSet<Number>> {
+        let _ = fs::remove_file(self.reached());
+        let outcome = self.run(Run { program, fault: RECORD, limit: None }, &[subject.to_owned()], true)?;
+        if let Some(ended) = outcome.ended {
+            return Err(format!("{subject}: {ended}"));
+        }
+        let text = fs::read_to_string(self.reached()).unwrap_or_default();
+        text.lines().map(|line| line.parse().map_err(|e| format!("`{line}`: {e}"))).collect()
+    }
+
+    fn reached(&self) -> PathBuf {
+        self.folder.join("reached.txt")
     }
 }
 
