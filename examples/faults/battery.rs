@@ -31,9 +31,21 @@ pub(crate) struct Row {
     pub(crate) checks: usize,
     /// The first that failed, with its z or p.
     pub(crate) first: Option<String>,
-    /// Asked in full after a quick look.
+    /// How it was asked.
     #[serde(default)]
-    pub(crate) full: bool,
+    pub(crate) asked: Asked,
+}
+
+/// How a row is asked.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+pub(crate) enum Asked {
+    /// Every third subject, with an eighth of the work.
+    #[default]
+    Excerpt,
+    /// All subjects, with an eighth of the work.
+    Quick,
+    /// All subjects, in full.
+    Full,
 }
 
 impl Outcome {
@@ -65,8 +77,8 @@ impl Outcome {
     }
 
     /// What was found of the battery, and what of some of its rows again, with more work: the latter counts there.
-    pub(crate) fn with(mut self, again: Self) -> Self {
-        for row in again.rows.into_iter().map(|row| Row { full: true, ..row }) {
+    pub(crate) fn with(mut self, again: Self, asked: Asked) -> Self {
+        for row in again.rows.into_iter().map(|row| Row { asked, ..row }) {
             match self.rows.iter_mut().find(|known| known.id == row.id) {
                 Some(known) => *known = row,
                 None => self.rows.push(row),
@@ -133,7 +145,7 @@ fn by_row(document: &Document) -> Vec<Row> {
     let mut rows: Vec<Row> = Vec::new();
     for section in &document.sections {
         let index = rows.iter().position(|row| row.id == section.topic).unwrap_or_else(|| {
-            rows.push(Row { id: section.topic.clone(), failed: 0, checks: 0, first: None, full: false });
+            rows.push(Row { id: section.topic.clone(), failed: 0, checks: 0, first: None, asked: Asked::Excerpt });
             rows.len() - 1
         });
         let row = &mut rows[index];

@@ -1,6 +1,6 @@
 //! What the battery says to a fault: found now, or kept from an earlier run.
 
-use crate::battery::Outcome;
+use crate::battery::{Asked, Outcome};
 use crate::many::Many;
 use crate::patch::{Patch, Result};
 use crate::reach::Reach;
@@ -13,9 +13,9 @@ use std::time::Duration;
 /// Which rows are run.
 #[derive(Clone, Copy, PartialEq)]
 pub(crate) enum Extent {
-    /// Those that patches name: quickly, and in full where a quick look does not notice.
+    /// Those that patches name: quickly, and with more work where a quick look does not notice.
     Named,
-    /// All of them quickly, and in full what patches name and a quick look does not notice.
+    /// All of them quickly, and with more work what patches name and a quick look does not notice.
     Quick,
     /// All of them in full.
     Whole,
@@ -58,17 +58,22 @@ impl Bench {
         Ok(Self { patches, extent, tree, workshop, many: None, reach: None, found, stale })
     }
 
-    /// What the battery says to the tree as it is: as quickly as faults are asked, or one row in full.
-    pub(crate) fn sound(&mut self, row: Option<&str>) -> Result<Outcome> {
-        let quick = row.is_none() && self.extent != Extent::Whole;
-        let key = row.unwrap_or(if quick { "-quick" } else { "" });
+    /// What the battery says to the tree as it is: as faults are asked at first, or one row as it is asked again.
+    pub(crate) fn sound(&mut self, row: Option<(&str, Asked)>) -> Result<Outcome> {
+        let asked = row.map_or(Asked::Excerpt, |(_, asked)| asked);
+        let key = match (row, self.extent) {
+            (Some((row, asked)), _) => format!("{row}-{asked:?}").to_lowercase(),
+            (None, Extent::Whole) => String::new(),
+            (None, _) => String::from("-quick"),
+        };
         let file = self.found.join(format!("unmodified-{:016x}{key}.json", self.tree.hash(None)?));
         if let Some(outcome) = kept(&file) {
             return Ok(outcome);
         }
         let run = Run { program: &self.many()?.program.clone(), fault: 0, limit: None };
-        let only: Vec<String> = row.iter().map(|row| format!("{row}/")).collect();
-        keep(&file, self.workshop.run(run, &only, quick)?)
+        let only: Vec<String> = row.iter().map(|(row, _)| format!("{row}/")).collect();
+        let full = asked == Asked::Full || row.is_none() && self.extent == Extent::Whole;
+        keep(&file, self.workshop.run(run, &only, !full)?)
     }
 
     /// What the battery says to a fault; from an earlier run where it met the same tree.
@@ -112,14 +117,17 @@ impl Bench {
             return Ok(quick);
         }
 
-        // In full, where rows that should have noticed have not.
-        let missed = patch.rows.iter().filter(|row| !quick.notices(row)).map(|row| format!("{row}/"));
-        let missed: Vec<String> = missed.collect();
-        let quick = if all { quick.filled(sound) } else { quick };
-        match missed.is_empty() {
-            true => Ok(quick),
-            false => Ok(quick.with(self.workshop.run(run, &missed, false)?)),
+        // Rows that should have noticed and have not: all their subjects, then in full.
+        let mut outcome = if all { quick.filled(sound) } else { quick };
+        for asked in [Asked::Quick, Asked::Full] {
+            let missed = patch.rows.iter().filter(|row| !outcome.notices(row)).map(|row| format!("{row}/"));
+            let missed: Vec<String> = missed.collect();
+            if !missed.is_empty() && outcome.ended.is_none() {
+                let again = self.workshop.run(run, &missed, asked != Asked::Full)?;
+                outcome = outcome.with(again, asked);
+            }
         }
+        Ok(outcome)
     }
 
     fn many(&mut self) -> Result<&Many> {
