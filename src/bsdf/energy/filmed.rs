@@ -8,12 +8,12 @@
 //! ```
 //!
 //! Films are too many for one table, so each material has its own, made when it is compiled: over μ, and over roughness and
-//! thickness where they vary over the surface.
+//! thickness where they vary over the surface. The loss is linear in R, so that one quadrature serves all thicknesses.
 
 use super::axes::{Axis, alpha_of, invert, log_alpha};
 use super::dielectric::DielectricEnergy;
 use super::grid::Stencil;
-use super::interface::Interface;
+use super::interface::{ByReflectance, COSINES, Interface};
 use super::quadrature::Rule;
 use super::table::over_cosine;
 use super::volume;
@@ -83,26 +83,28 @@ impl FilmedEnergy {
         let alphas = Nodes::new(alpha.map(log_alpha), N_ALPHA);
         let steps = ((thickness[1] - thickness[0]) / STEP).clamp(0.0, (MOST - 1) as f32) as usize;
         let thicknesses = Nodes::new(thickness, steps + 2);
-        let rule = if alphas.n * thicknesses.n == 1 { Rule::new::<12, 16>() } else { Rule::new::<6, 8>() };
+        let rule = if alphas.n == 1 { Rule::new::<12, 16>() } else { Rule::new::<6, 8>() };
+        let root = Vec4::splat((eta - 1.0) / (eta + 1.0));
+        let reflectance = |k: usize| {
+            let film = ThinFilm { eta: film, thickness: thicknesses.at(k) };
+            std::array::from_fn(|i| {
+                let [x, y, z, _] = film.reflectance(i as f32 / (COSINES - 1) as f32, root).0.to_array();
+                Vec4::new(x, y, z, y)
+            })
+        };
+        let reflectances: Vec<[Vec4; COSINES]> = (0..thicknesses.n).map(reflectance).collect();
         let mut new = Self { eta, alphas, thicknesses, sides: [vec![], vec![]], means: [vec![], vec![]] };
         for side in 0..2 {
+            // What microfacets let pass knows of no film: it is integrated once for all of them.
             let node = |at: usize| {
-                let (i, j, k) = (at % N_MU[side], at / N_MU[side] % alphas.n, at / N_MU[side] / alphas.n);
+                let (i, j) = (at % N_MU[side], at / N_MU[side]);
                 let alpha = alpha_of(alphas.at(j));
                 let axis = new.axis(alpha);
                 let mu = invert(i as f32 / (N_MU[side] - 1) as f32, |mu| new.abscissa(side, &axis, mu));
-                let film = ThinFilm { eta: film, thickness: thicknesses.at(k) };
-                // Light that is totally reflected does not see the film.
-                let root = Vec4::splat((eta - 1.0) / (eta + 1.0));
-                let outside = |c: f32| {
-                    // Snell, from the denser side: cos² outside = 1 − η² (1 − c²).
-                    let cos = if side == 0 { c } else { (1.0 - eta * eta * (1.0 - c * c)).max(0.0).sqrt() };
-                    film.reflectance(cos, root).0
-                };
-                Interface::Dielectric { eta: seen(eta, side) }.filmed_loss(&rule, mu, alpha, outside)
+                Interface::Dielectric { eta: seen(eta, side) }.by_reflectance(&rule, mu, alpha)
             };
-            new.sides[side] =
-                (0..N_MU[side] * alphas.n * thicknesses.n).into_par_iter().map(node).collect::<Vec<Vec4>>();
+            let nodes: Vec<ByReflectance> = (0..N_MU[side] * alphas.n).into_par_iter().map(node).collect();
+            new.sides[side] = reflectances.iter().flat_map(|r| nodes.iter().map(|node| node.loss(r))).collect();
             let mean = |at: usize| {
                 let alpha = alpha_of(alphas.at(at % alphas.n));
                 let axis = new.axis(alpha);
@@ -160,5 +162,28 @@ impl FilmedEnergy {
     /// The bare interface of the table's index.
     fn own(&self, bare: &DielectricEnergy) -> DielectricEnergy {
         if bare.eta() == self.eta { *bare } else { DielectricEnergy::isotropic(bare.ggx().ax, self.eta) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table over roughness and thickness against those made for one film each, on the nodes and between them.
+    #[test]
+    fn one_quadrature_serves_all_films() {
+        let (eta, film) = (1.5, 1.8);
+        let many = FilmedEnergy::new(eta, [0.2, 0.8], film, [100.0, 700.0]);
+        for (alpha, thickness) in [(0.2, 100.0), (0.8, 700.0), (0.47, 333.0)] {
+            let one = FilmedEnergy::new(eta, [alpha; 2], film, [thickness; 2]);
+            let bare = DielectricEnergy::isotropic(alpha, eta);
+            for z in [0.05f32, 0.3, 0.7, 1.0, -0.05, -0.5, -0.7, -0.76, -1.0] {
+                let w = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
+                let [a, b] = [&many, &one].map(|table| table.loss(&bare, w, thickness, 1.0).0.truncate());
+                assert!(a.abs_diff_eq(b, 1e-3), "α {alpha}, {thickness} nm, μ {z}: {a} {b}");
+            }
+            let [a, b] = [&many, &one].map(|table| table.mean_loss(&bare, thickness, 1.0).map(|m| m.0.truncate()));
+            assert!(a[0].abs_diff_eq(b[0], 1e-3) && a[1].abs_diff_eq(b[1], 1e-3), "{a:?} {b:?}");
+        }
     }
 }

@@ -71,22 +71,48 @@ impl Interface {
         Energy { loss: loss as f32, parts: [a as f32, b as f32] }
     }
 
-    /// Energy that single scattering loses, by lanes, at a dielectric whose facets reflect `reflectance` below the critical
-    /// angle.
-    pub(super) fn filmed_loss(self, rule: &Rule, mu: f32, alpha: f32, reflectance: impl Fn(f32) -> Vec4) -> Vec4 {
-        let Self::Dielectric { eta } = self else { return Vec4::ZERO };
+    /// Energy that single scattering loses at a dielectric whose facets have another reflectance than Fresnel's.
+    pub(super) fn by_reflectance(self, rule: &Rule, mu: f32, alpha: f32) -> ByReflectance {
+        let Self::Dielectric { eta } = self else { return ByReflectance([0.0; COSINES + 1]) };
+        let eta = f64::from(eta);
+        // Snell, from the denser side: cos² outside = 1 − (1 − c²)/η².
+        let outside = |c: f64| if eta < 1.0 { (1.0 - (1.0 - c * c) / (eta * eta)).max(0.0).sqrt() } else { c };
         let seen = Seen::new(self, mu, 0.0, [alpha; 2]);
-        let [r, g, b] = seen.refracted(rule, eta.into(), |c, f, lost_r, w, lost_t| {
-            // All of it is reflected where nothing is refracted.
-            let lanes = if f < 1.0 || w > 0.0 { reflectance(c as f32) } else { Vec4::ONE };
-            [lanes.x, lanes.y, lanes.z].map(|r| f64::from(r) * lost_r + (1.0 - f64::from(r)) * lost_t)
-        });
-        Vec4::new(r as f32, g as f32, b as f32, g as f32)
+        ByReflectance(seen.refracted(rule, eta, |c, f, lost_r, w, lost_t| {
+            let mut parts = [0.0; COSINES + 1];
+            if f >= 1.0 && w <= 0.0 {
+                // Nothing is refracted: all of it is reflected, whatever R.
+                parts[COSINES] = lost_r;
+                return parts;
+            }
+            let x = outside(c) * (COSINES - 1) as f64;
+            let k = (x as usize).min(COSINES - 2);
+            let t = x - k as f64;
+            (parts[k], parts[k + 1]) = ((1.0 - t) * (lost_r - lost_t), t * (lost_r - lost_t));
+            parts[COSINES] = lost_t;
+            parts
+        }))
     }
 
     /// Energy of single scattering whose facets reflect T_j(2√c − 1), for every j ([`crate::bsdf::Angular`]).
     pub(super) fn moments(self, rule: &Rule, mu: f32, phi: f64, alpha: [f32; 2]) -> [f64; TERMS] {
         Seen::new(self, mu, phi, alpha).mirrored(rule, |c, w, _| polynomials(c).map(|t| w * t))
+    }
+}
+
+/// Values of a reflectance R, at equidistant cosines of the angle outside, between which it is linear.
+pub(super) const COSINES: usize = 65;
+
+/// Energy that single scattering loses towards a direction at facets of any reflectance R, which it is linear in:
+/// ∫ D_o(m) (R lost_r + (1 − R) lost_t) dm = Σ_k R_k w_k + w_∞.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct ByReflectance([f64; COSINES + 1]);
+
+impl ByReflectance {
+    /// The loss, by lanes, with this reflectance.
+    pub(super) fn loss(&self, reflectance: &[Vec4; COSINES]) -> Vec4 {
+        let [weights @ .., rest] = &self.0;
+        reflectance.iter().zip(weights).fold(Vec4::splat(*rest as f32), |sum, (r, w)| sum + *r * *w as f32)
     }
 }
 
