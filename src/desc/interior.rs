@@ -23,6 +23,17 @@ pub enum Dispersion {
     Cauchy([f32; 2]),
 }
 
+impl Dispersion {
+    /// The index at Fraunhofer's d line, 587.56 nm, where it does not depend on the model's own: readers give the model this one.
+    pub fn index(self) -> Option<f32> {
+        const D: f32 = 0.587_56;
+        match self {
+            Self::None | Self::InverseAbbe(_) => None,
+            Self::Cauchy([a, b]) => Some(a + b / (D * D)),
+        }
+    }
+}
+
 /// σ_a = −ln(colour)/distance \[1/m\]: what is left of white light after `distance` \[m\] is `color`.
 pub fn absorption(color: [f32; 3], distance: f32) -> [f32; 3] {
     // Black takes more than a number can say.

@@ -281,6 +281,10 @@ impl Model {
                 (m.layers.sheen, m.layers.clearcoat) = (None, None);
                 // A base under a film whose fringes are too many for its series is coupled to more than the film reflects.
                 m.iridescence = None;
+                // Of what passes diffusely into a thinner medium only 1/η² does.
+                if m.refracts() {
+                    m.diffuse_transmission = None;
+                }
             }
             _ => {}
         }

@@ -54,7 +54,7 @@ impl InteriorTable {
         if ior.is_some() {
             return Err(Fault::new(at, "`ior` or `abbe` is given too; expected one way"));
         }
-        let index = cauchy_index(value.map(|x| x.0));
+        let index = Dispersion::Cauchy(value.map(|x| x.0)).index().unwrap_or(f32::NAN);
         if !(1.0..f32::INFINITY).contains(&index) {
             return Err(Fault::new(at, format!("the index A + B/0.58756² is {index}, expected at least 1")));
         }
@@ -103,10 +103,4 @@ impl InteriorTable {
             }
         }
     }
-}
-
-/// The index A + B/λ² at Fraunhofer's d line, 587.56 nm, where an index is meant that stands alone.
-fn cauchy_index([a, b]: [f32; 2]) -> f32 {
-    const D: f32 = 0.587_56;
-    a + b / (D * D)
 }
