@@ -39,4 +39,4 @@ mod task;
 pub mod tiles;
 
 pub use report::{Report, Section};
-pub use task::{Curve, Exhibit, Findings, HeatMap, Picture, Progress, Size, Task, Topic, Trial, run};
+pub use task::{Curve, Exhibit, Findings, HeatMap, Listing, Picture, Progress, Size, Task, Topic, Trial, run};

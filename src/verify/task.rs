@@ -4,7 +4,7 @@ use super::report::{Report, Section};
 use crate::stats::Family;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicUsize, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 /// What some checks are about: a row of the table of closed forms, or a part of a scene.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -135,6 +135,8 @@ pub enum Exhibit {
     HeatMap(HeatMap),
     /// Pixels.
     Picture(Picture),
+    /// Text to be copied.
+    Listing(Listing),
 }
 
 /// Lines over a common abscissa.
@@ -172,6 +174,15 @@ pub struct Picture {
     pub size: [u32; 2],
     /// Values; 1 is white.
     pub pixels: Vec<[f32; 3]>,
+}
+
+/// A text of several lines to be copied, such as a scene file.
+#[derive(Clone, Debug)]
+pub struct Listing {
+    /// What it is.
+    pub title: String,
+    /// Its lines.
+    pub text: String,
 }
 
 type Work = Box<dyn Fn(&Trial, &mut Findings) + Send + Sync>;
@@ -244,7 +255,7 @@ pub fn run(tasks: &[Task], size: Size, seed: u64, alpha: f64, progress: &(dyn Fn
         }
     };
     let sections = tasks.par_iter().with_max_len(1).map(one).collect();
-    Report { size, seed, alpha, sections, time: Duration::ZERO.max(start.elapsed()) }
+    Report { size, seed, alpha, sections, notes: Vec::new(), time: start.elapsed() }
 }
 
 /// A seed of (seed, name): FNV-1a over the name, mixed with the seed (Steele, Lea & Flood 2014, the finaliser of

@@ -254,7 +254,14 @@ mod tests {
                 Section { topic, subject: k.to_string(), checks, exhibits, words, guarded: false, time: Duration::ZERO }
             };
             let sections = (0..6).map(&mut section).collect();
-            calibration.add(&Report { size: Size::Default, seed, alpha: 1e-4, sections, time: Duration::ZERO });
+            calibration.add(&Report {
+                size: Size::Default,
+                seed,
+                alpha: 1e-4,
+                sections,
+                notes: Vec::new(),
+                time: Duration::ZERO,
+            });
         }
         calibration
     }

@@ -1,7 +1,7 @@
 //! A report for programs.
 //!
 //! One object ([`Document`]): what was run and how, the verdict, then every section with every check. Numbers that are
-//! not finite are `null`; JSON has no others. Exhibits are for the eye and stay out.
+//! not finite are `null`; JSON has no others. Of the exhibits, which are for the eye, it has the texts.
 
 use super::{About, Digest, Report, SOFTWARE};
 use crate::stats::{Check, Evidence};
@@ -36,6 +36,9 @@ pub struct Document {
     pub failures: usize,
     /// What each task found.
     pub sections: Vec<Section>,
+    /// What is to be known of the run as a whole; no verdicts.
+    #[serde(default)]
+    pub notes: Vec<String>,
 }
 
 /// What one task found.
@@ -55,6 +58,9 @@ pub struct Section {
     pub passes: bool,
     /// Verdicts in words.
     pub words: Vec<String>,
+    /// Texts to be copied, such as the smallest scene that fails.
+    #[serde(default)]
+    pub listings: Vec<String>,
     /// The checks.
     pub checks: Vec<Entry>,
 }
@@ -125,6 +131,7 @@ impl Document {
             checks: report.checks().count(),
             failures,
             sections: report.sections.iter().map(|section| Section::new(section, share)).collect(),
+            notes: report.notes.clone(),
         }
     }
 }
@@ -139,6 +146,7 @@ impl Section {
             seconds: section.time.as_secs_f64(),
             passes: Digest::new(&section.checks, share).passes(),
             words: section.words.clone(),
+            listings: section.listings().map(|listing| listing.text.clone()).collect(),
             checks: section.checks.iter().map(|check| Entry::new(check, share)).collect(),
         }
     }
@@ -179,10 +187,11 @@ mod tests {
         let report = example(true);
         let text = text(&report, &about()).unwrap();
         let document: Document = serde_json::from_str(&text).unwrap();
-        assert!(!document.passes && document.checks == 5 && document.failures == 1 && document.seed == 7);
+        assert!(!document.passes && document.checks == 6 && document.failures == 1 && document.seed == 7);
         assert_eq!(document.p_limit, report.share());
         let wrong: Vec<&Entry> = document.sections.iter().flat_map(|s| &s.checks).filter(|c| !c.passes).collect();
         assert_eq!(wrong.len(), 1);
+        assert_eq!(document.sections[2].listings.len(), 1);
         let Kind::Z { exact, estimate, z, dof, .. } = wrong[0].kind else { panic!("{text}") };
         assert_eq!((exact, estimate, dof), (Some(0.5), Some(0.6), None));
         assert!((z.unwrap() - 10.0).abs() < 1e-9);

@@ -10,7 +10,7 @@ pub mod text;
 pub use cells::Cells;
 pub use digest::{Digest, Group};
 
-use super::task::{Exhibit, Size, Topic};
+use super::task::{Exhibit, Listing, Size, Topic};
 use crate::stats::{Check, Evidence, sidak, t_limit};
 use std::time::Duration;
 
@@ -34,6 +34,14 @@ pub struct Section {
 }
 
 impl Section {
+    /// The texts among its exhibits.
+    pub fn listings(&self) -> impl Iterator<Item = &Listing> {
+        self.exhibits.iter().filter_map(|exhibit| match exhibit {
+            Exhibit::Listing(listing) => Some(listing),
+            _ => None,
+        })
+    }
+
     /// The name of its task.
     pub fn name(&self) -> String {
         format!("{}/{}", self.topic.id, self.subject)
@@ -51,6 +59,8 @@ pub struct Report {
     pub alpha: f64,
     /// A section a task.
     pub sections: Vec<Section>,
+    /// What is to be known of the run as a whole, a sentence each; no verdicts.
+    pub notes: Vec<String>,
     /// Wall-clock time.
     pub time: Duration,
 }
@@ -167,6 +177,11 @@ pub(super) mod tests {
                     pixels: vec![[1.0, 0.5, 0.0], [f32::NAN; 3]],
                 }));
             }),
+            Task::new(B, "text", |_, found| {
+                found.checks.holds("yes", true);
+                let text = "[a]\nb = \"</pre>\u{1b}\"\n".into();
+                found.exhibits.push(Exhibit::Listing(Listing { title: "a file".into(), text }));
+            }),
             Task::new(A, "second", |_, found| found.checks.holds("yes", true)),
         ];
         run(&tasks, Size::Default, 7, 1e-4, &|_| {})
@@ -181,7 +196,7 @@ pub(super) mod tests {
     fn topics_come_together() {
         let report = example(false);
         let groups = report.groups();
-        assert_eq!(groups.iter().map(|g| (g.topic.id, g.sections.len())).collect::<Vec<_>>(), [("A1", 2), ("B2", 1)]);
+        assert_eq!(groups.iter().map(|g| (g.topic.id, g.sections.len())).collect::<Vec<_>>(), [("A1", 2), ("B2", 2)]);
         assert_eq!(report.random(), 4);
         assert!(report.passes() && !example(true).passes());
     }

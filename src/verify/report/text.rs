@@ -95,6 +95,13 @@ fn write_section(out: &mut String, section: &Section, share: f64, detail: Detail
     for part in section.words.iter().flat_map(|words| wrap(words, WIDTH - 7)) {
         writeln!(out, "       {part}")?;
     }
+
+    // Texts are not indented, and their lines not broken, so that they can be copied.
+    for listing in section.listings() {
+        writeln!(out, "       {}:\n", one_line(&listing.title))?;
+        listing.text.lines().try_for_each(|line| writeln!(out, "{}", one_line(line)))?;
+        writeln!(out)?;
+    }
     Ok(())
 }
 
@@ -155,6 +162,9 @@ fn summary(out: &mut String, report: &Report, share: f64) -> fmt::Result {
         report.alpha,
         report.z_limit(),
     )?;
+    for part in report.notes.iter().flat_map(|note| wrap(&format!("note: {note}"), WIDTH)) {
+        writeln!(out, "{part}")?;
+    }
     let time = report.time.as_secs_f64();
     match failures {
         0 if all == 0 => write!(out, "{BAD}FAILED{BAD:#}: nothing was checked")?,
@@ -213,7 +223,7 @@ mod tests {
         {
             assert!(text.contains(part), "{part} in\n{text}");
         }
-        assert!(text.contains("reflects at most 0.94") && text.contains("FAILED: 1 of 5 checks; size default, seed 7"));
+        assert!(text.contains("reflects at most 0.94") && text.contains("FAILED: 1 of 6 checks; size default, seed 7"));
         assert!(!text.contains("  mean") && text.lines().all(|line| line.width() <= WIDTH), "{text}");
         assert!(text.matches("A1  ").count() == 1, "a topic's subjects stand together\n{text}");
     }
@@ -224,6 +234,14 @@ mod tests {
         assert!(all.contains("  mean") && all.contains("Lambert 1760") && all.contains("PASSED"), "{all}");
         let failures = plain(&example(true), Detail::Failures);
         assert!(failures.contains("tail") && !failures.contains("second") && !failures.contains("B2"), "{failures}");
+    }
+
+    #[test]
+    fn texts_can_be_copied_and_notes_stand_last() {
+        let report = Report { notes: vec!["nothing was skipped".into()], ..example(false) };
+        let text = plain(&report, Detail::Worst);
+        assert!(text.contains("a file:\n\n[a]\nb = \"</pre>\u{fffd}\"\n"), "{text}");
+        assert!(text.contains("\nnote: nothing was skipped\nPASSED"), "{text}");
     }
 
     #[test]

@@ -72,6 +72,10 @@ fn draw(section: &Section, exhibit: &Exhibit) -> Markup {
         Exhibit::Curve(curve) => (&curve.title, curve::draw(curve)),
         Exhibit::HeatMap(map) => (&map.title, heat_map::draw(map)),
         Exhibit::Picture(picture) => (&picture.title, picture::draw(picture)),
+        Exhibit::Listing(listing) => {
+            let lines = listing.text.lines().map(one_line);
+            (&listing.title, html! { pre { @for line in lines { (line) "\n" } } })
+        }
     };
     html! {
         figure { figcaption { b { (one_line(title)) } span.faint { (one_line(&section.subject)) } } (content) }

@@ -100,6 +100,7 @@ fn header(report: &Report, about: &About) -> Markup {
             }
             dl.facts {
                 @for (name, value) in facts { div { dt { (name) } dd { (value) } } }
+                @for note in &report.notes { div.wide { dt { "note" } dd { (one_line(note)) } } }
                 div.wide { dt { "do it again" } dd { code { (one_line(&about.command)) } } }
             }
         }
