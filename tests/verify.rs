@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 /// The rows of closed forms whose subject exists; `D` are densities: of lights, warps, samplers, filters, choices.
 const ROWS: &[&str] = &[
     "A1", "A2", "A3", "A4", "A5", "C1", "C2", "C3", "D1", "D2", "D3", "D4", "D5", "E1", "F1", "F2", "F3", "I1", "L1",
-    "L2", "L3", "L4", "L5", "L6", "N1", "T1", "T2", "T3", "T4", "T5", "T6", "V1", "X1", "X2",
+    "L2", "L3", "L4", "L5", "L6", "N1", "T1", "T2", "T3", "T4", "T5", "T6", "V1", "X1", "X2", "X3",
 ];
 
 /// Largest relative bias that the best check of a row may miss.

@@ -12,6 +12,7 @@ use super::{Failure, args, interrupt};
 use radianza::desc::{self, Options};
 use radianza::scene::Scene;
 use radianza::stats::ALPHA;
+use radianza::verify::random::Tally;
 use radianza::verify::report::text::{self, Detail};
 use radianza::verify::report::{About, count, one_line};
 use radianza::verify::{self, Report, Size, Task, battery};
@@ -73,18 +74,22 @@ pub(crate) struct Arguments {
 
 /// Checks, prints, writes; fails where a check does.
 pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
+    let tally = Tally::default();
     if arguments.list {
-        return print(&list(&select(tasks(arguments)?, &arguments.only)?, arguments.verbose));
+        return print(&list(&select(tasks(arguments, &tally)?, &arguments.only)?, arguments.verbose));
     }
 
     // Know before that the findings can be kept.
     let outputs = Outputs::new(arguments)?;
     interrupt::at_once();
-    let mut tasks = select(tasks(arguments)?, &arguments.only)?;
+    let mut tasks = select(tasks(arguments, &tally)?, &arguments.only)?;
     if arguments.quick && arguments.scene.is_none() && arguments.random.is_none() && arguments.only.is_empty() {
         tasks = battery::excerpt(tasks);
     }
-    let report = check(&tasks, arguments)?;
+    let mut report = check(&tasks, arguments)?;
+    if arguments.random.is_some() {
+        report.notes.extend(tally.notes());
+    }
     outputs.write(&report, &about(arguments))?;
     if !outputs.take_stdout() {
         print(&text::table(&report, detail(arguments)))?;
@@ -92,13 +97,13 @@ pub(crate) fn run(arguments: &Arguments) -> Result<(), Failure> {
     verdict(&report)
 }
 
-/// Everything that can be checked of the scene, or of the program.
-fn tasks(arguments: &Arguments) -> Result<Vec<Task>, Failure> {
+/// Everything that can be checked of the scene, or of the program; `tally` takes what random scenes say of themselves.
+fn tasks(arguments: &Arguments, tally: &Tally) -> Result<Vec<Task>, Failure> {
     let options = arguments.pick.options();
     let Some(path) = &arguments.scene else {
         return match options == Options::default() {
             true => Ok(match arguments.random {
-                Some(count) => verify::random::tasks(arguments.seed, 0..count),
+                Some(count) => verify::random::tasks(arguments.seed, 0..count, tally),
                 None => battery::tasks(),
             }),
             false => Err(Failure::Usage("a time or a variant needs a scene".into())),

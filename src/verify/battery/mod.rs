@@ -12,7 +12,7 @@ mod scenes;
 mod splats;
 mod warp;
 
-use super::Task;
+use super::{Task, random};
 use std::collections::HashMap;
 
 /// Every check of the crate, row by row.
@@ -24,6 +24,7 @@ pub fn tasks() -> Vec<Task> {
         filter::tasks,
         light::tasks,
         lobes::tasks,
+        random::row,
         restricted::tasks,
         sampler::tasks,
         scenes::tasks,

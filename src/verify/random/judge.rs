@@ -31,6 +31,9 @@ pub(super) enum Aspect {
 impl Aspect {
     /// All of them.
     pub(super) const ALL: [Self; 5] = [Self::Agreement, Self::Furnace, Self::White, Self::Bits, Self::Mitsuba];
+
+    /// Those that need nobody else.
+    pub(super) const OURS: [Self; 4] = [Self::Agreement, Self::Furnace, Self::White, Self::Bits];
 }
 
 /// Pixels of an image.
@@ -55,6 +58,12 @@ pub(super) fn look(desc: &desc::Scene, aspect: Aspect, rays: u64, seed: u64) -> 
 }
 
 fn judge(desc: &desc::Scene, aspect: Aspect, budget: Budget, found: &mut Findings) {
+    // Another renderer is asked about what it can say.
+    let said = match aspect {
+        Aspect::Mitsuba => mitsuba::python().and_then(|python| Some((python, mitsuba::sayable(desc)?))),
+        _ => None,
+    };
+    let desc = said.as_ref().map_or(desc, |(_, said)| said);
     let scene = match Scene::compile(desc) {
         Ok(scene) => Arc::new(scene),
         Err(e) => return found.checks.holds(format!("is compiled: {e}"), false),
@@ -72,8 +81,8 @@ fn judge(desc: &desc::Scene, aspect: Aspect, budget: Budget, found: &mut Finding
         Aspect::Furnace | Aspect::White => {}
         Aspect::Bits => bits::judge(&subject, budget.seed, found),
         Aspect::Mitsuba => {
-            if let Some(python) = mitsuba::python() {
-                mitsuba::compare(&python, &subject, budget.rays, budget.seed, found);
+            if let Some((python, _)) = &said {
+                mitsuba::compare(python, &subject, budget.rays, budget.seed, found);
             }
         }
     }
@@ -90,7 +99,23 @@ fn is_lossless(desc: &desc::Scene) -> bool {
     desc.objects.iter().all(|o| lossless(&desc.materials[o.material]).is_some())
 }
 
-/// The least likely of some checks.
+/// The p-value of the least likely of some checks.
 pub(super) fn least(checks: &[Check]) -> f64 {
     checks.iter().map(Check::p).fold(1.0, f64::min)
+}
+
+/// What the least likely of some checks compares, without where and how: `Light against Mis: mean R` and `Light against Mis:
+/// worst of 16 tiles` are one kind of failure.
+pub(super) fn kind(checks: &[Check]) -> String {
+    let worst = checks.iter().min_by(|a, b| a.p().total_cmp(&b.p()));
+    worst.map_or(String::new(), |check| kind_of(check).to_owned())
+}
+
+/// The least likely check of a kind.
+pub(super) fn least_of_kind(checks: &[Check], kind: &str) -> f64 {
+    checks.iter().filter(|check| kind_of(check) == kind).map(Check::p).fold(1.0, f64::min)
+}
+
+fn kind_of(check: &Check) -> &str {
+    check.name.split(':').next().unwrap_or_default()
 }

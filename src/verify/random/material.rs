@@ -68,6 +68,12 @@ impl Maker<'_> {
         let mut material = Material::new("", model);
         if encloses {
             material.interior = draft.interior();
+            // As readers have it: the model's index is that of the formula.
+            match (&mut material.model, material.interior.dispersion.index()) {
+                (Model::Dielectric { ior, .. }, Some(index)) => *ior = index,
+                (Model::MetallicRoughness(m), Some(index)) => m.ior = index,
+                _ => {}
+            }
         } else {
             material.alpha = draft.alpha();
         }

@@ -1,11 +1,13 @@
 //! Mitsuba 3 as an oracle that shares no line with this crate.
 //!
-//! The environment variable `RADIANZA_MITSUBA` names a Python that has it. Scenes that [`export`] says without a note are
-//! rendered by both.
+//! The environment variable `RADIANZA_MITSUBA` names a Python that has it. Of each scene, what [`export`] says without a
+//! note is rendered by both: edits that leave fewer notes are kept until there is none.
 
-use crate::desc::export::{ExportError, Target, View, export};
-use crate::desc::{self, Filter, Integrator, SamplerKind, Strategy};
-use crate::render::Settings;
+use super::prune::prune;
+use super::shrink::candidates;
+use super::{SIDE, settings, simpler};
+use crate::desc::export::{ExportError, Target, View, Written, export};
+use crate::desc::{self, Filter, Integrator};
 use crate::verify::Findings;
 use crate::verify::agreement::agreement;
 use crate::verify::replicated::{Replicated, renders};
@@ -15,13 +17,10 @@ use std::path::Path;
 use std::process::Command;
 
 /// Names the Python.
-const VARIABLE: &str = "RADIANZA_MITSUBA";
+pub(super) const VARIABLE: &str = "RADIANZA_MITSUBA";
 
 /// Independent images.
 const PARTS: usize = 64;
-
-/// Pixels across and down.
-const SIDE: u32 = 16;
 
 /// Prints the pixels of each part, RGB, row by row, a part a line.
 const SCRIPT: &str = "
@@ -37,14 +36,13 @@ pub(super) fn python() -> Option<OsString> {
     std::env::var_os(VARIABLE)
 }
 
-/// Checks that Mitsuba makes the same image, where it has the same models.
+/// Checks that Mitsuba makes the same image of a scene that it can say exactly.
 pub(super) fn compare(python: &OsString, subject: &Subject, rays: u64, seed: u64, found: &mut Findings) {
     let rays_of_a_path = 8;
     let samples = (rays / (rays_of_a_path * u64::from(SIDE * SIDE) * PARTS as u64)).clamp(1, 1 << 16);
     let samples = (samples as u32).next_power_of_two();
     match theirs(python, &subject.desc, samples, seed) {
-        Ok(None) => {}
-        Ok(Some(theirs)) => match renders(&subject.scene, &settings(samples, seed)) {
+        Ok(theirs) => match renders(&subject.scene, &settings(samples, seed)) {
             Ok(ours) => {
                 let (theirs, ours) = ((&theirs).into(), (&ours.beauty).into());
                 found.exhibits.extend(agreement(&mut found.checks, "Mitsuba against Mis", &theirs, &ours));
@@ -55,18 +53,43 @@ pub(super) fn compare(python: &OsString, subject: &Subject, rays: u64, seed: u64
     }
 }
 
-/// Mitsuba's image in independent parts; nothing where it cannot say the scene exactly.
-fn theirs(python: &OsString, desc: &desc::Scene, spp: u32, seed: u64) -> Result<Option<Replicated>, String> {
-    let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
-    let path = folder.path().join("scene.xml");
+/// What Mitsuba can say exactly of a scene; nothing where no light is left of it.
+pub(super) fn sayable(desc: &desc::Scene) -> Option<desc::Scene> {
+    let mut scene = desc.clone();
+    let mut left = notes(&scene);
+    while left > 0 {
+        // Single things last to first: the largest stand first.
+        let edits = simpler::plainer(&scene).into_iter().chain(candidates(&scene).into_iter().rev());
+        let fewer = edits.map(|edited| prune(&edited)).find_map(|edited| {
+            let notes = notes(&edited);
+            (notes < left).then_some((edited, notes))
+        });
+        (scene, left) = fewer?;
+    }
+    let shines = |o: &desc::Object| o.emission.is_some() || scene.materials[o.material].emission.is_some();
+    let is_lit = scene.environment.is_some() || !scene.lights.is_empty() || scene.objects.iter().any(shines);
+    is_lit.then_some(scene)
+}
+
+/// How many things of a scene Mitsuba cannot say exactly.
+fn notes(desc: &desc::Scene) -> usize {
+    let Ok(folder) = tempfile::tempdir() else { return usize::MAX };
+    written(desc, &folder.path().join("scene.xml"), 1).map_or(usize::MAX, |written| written.notes.len())
+}
+
+/// Writes the scene for Mitsuba.
+fn written(desc: &desc::Scene, path: &Path, spp: u32) -> Result<Written, ExportError> {
     let size = [SIDE; 2];
     let view = View { camera: 0, size, spp, max_depth: None, integrator: Integrator::Path, filter: Filter::Box };
-    match export(desc, &view, Target::Mitsuba, &path) {
-        Ok(written) if written.notes.is_empty() => {}
-        Ok(_) | Err(ExportError::Scene(_)) => return Ok(None),
-        Err(e) => return Err(e.to_string()),
-    }
-    render(python, &path, seed).map(Some)
+    export(desc, &view, Target::Mitsuba, path)
+}
+
+/// Mitsuba's image in independent parts.
+fn theirs(python: &OsString, desc: &desc::Scene, spp: u32, seed: u64) -> Result<Replicated, String> {
+    let folder = tempfile::tempdir().map_err(|e| e.to_string())?;
+    let path = folder.path().join("scene.xml");
+    written(desc, &path, spp).map_err(|e| e.to_string())?;
+    render(python, &path, seed)
 }
 
 fn render(python: &OsString, path: &Path, seed: u64) -> Result<Replicated, String> {
@@ -83,25 +106,5 @@ fn render(python: &OsString, path: &Path, seed: u64) -> Result<Replicated, Strin
     match images.filter(|images| images.len() == PARTS) {
         Some(images) => Ok(Replicated { size: [SIDE as usize; 2], images }),
         None => Err(String::from_utf8_lossy(&output.stderr).trim().to_owned()),
-    }
-}
-
-fn settings(spp: u32, seed: u64) -> Settings {
-    Settings {
-        size: [SIDE; 2],
-        crop: [0, 0, SIDE, SIDE],
-        camera: 0,
-        spp,
-        time: None,
-        replicate: spp,
-        integrator: Integrator::Path,
-        strategy: Strategy::Mis,
-        sampler: SamplerKind::Lattice,
-        seed: seed >> 11,
-        max_depth: None,
-        filter: Filter::Box,
-        transport: false,
-        threads: 0,
-        tile: u32::MAX,
     }
 }

@@ -3,7 +3,7 @@
 //! Every other row proves a part by itself. Faults that survive sit where two parts meet: a lamp with coverage, a mirrored
 //! instance with tangents. A random scene has no known answer, but much is known of it: every strategy estimates the same
 //! image; in a uniform environment nothing is brighter than it, and what was made white vanishes; no sample is NaN or
-//! negative; threads and replays change no bit.
+//! negative; threads, replays and a file of it change no bit.
 //!
 //! | file | what |
 //! | --- | --- |
@@ -12,6 +12,7 @@
 //! | `material.rs`, `texture.rs`, `shape.rs`, `light.rs` | its parts |
 //! | `judge.rs`, `bits.rs` | what must hold of it |
 //! | `mitsuba.rs` | another renderer's image of it, where one is there |
+//! | `tally.rs` | which scenes were slow, and what was skipped |
 //! | `shrink.rs`, `simpler.rs`, `prune.rs` | the smallest scene that still fails |
 
 mod bits;
@@ -26,21 +27,26 @@ mod scene;
 mod shape;
 mod shrink;
 mod simpler;
+mod tally;
 mod texture;
 
 pub use feature::{Feature, Features, Pair, lawful_pairs, may_meet};
 pub use scene::scene;
 
-use super::{Findings, Task, Topic, Trial};
-use crate::desc;
+pub use tally::Tally;
+
+use super::{Exhibit, Findings, Listing, Task, Topic};
+use crate::desc::{self, Filter, Integrator, SamplerKind, Strategy};
+use crate::render::Settings;
 use crate::sampler::hash;
-use judge::{Aspect, least, look};
+use judge::{Aspect, kind, least, look};
 use std::ops::Range;
 use std::time::{Duration, Instant};
+use tally::Entry;
 
 const X3: Topic = Topic {
     id: "X3",
-    title: "random scenes: strategies agree; open furnace ≤ 1, and = 1 once made white; threads and replays change nothing",
+    title: "random scenes: strategies agree; open furnace ≤ 1, and = 1 once made white; threads, replays and files change nothing",
     source: "conservation of energy; unbiasedness; pairs of features: Cohen et al. 1997 (pairwise testing)",
 };
 
@@ -57,53 +63,153 @@ const SUSPECT: f64 = 1e-3;
 /// Less likely than this at the last look, it fails: what Šidák leaves to one of a hundred thousand checks.
 const FAILS: f64 = 1e-9;
 
-/// How long a scene may take at its first look without a word about it.
-const SLOW: Duration = Duration::from_secs(30);
+/// Pixels across and down.
+const SIDE: u32 = 16;
 
-/// A task for each of the scenes `indices` of `seed`; what fails is shrunk.
-pub fn tasks(seed: u64, indices: Range<u64>) -> Vec<Task> {
+/// Rays of an image of the battery's row: many scenes that are looked at coarsely meet more than few that are looked at well.
+const ROW_RAYS: u64 = 60_000;
+
+/// Tasks of the battery's row.
+const ROW: u64 = 12;
+
+/// Scenes of each of its tasks in a thorough run.
+const MORE: u64 = 50;
+
+/// A task for each of the scenes `indices` of `seed`; what fails is shrunk. `tally` says afterwards how it went.
+pub fn tasks(seed: u64, indices: Range<u64>, tally: &Tally) -> Vec<Task> {
     let task = |index: u64| {
+        let tally = tally.clone();
         Task::new(X3, format!("seed {seed} scene {index:05}"), move |trial, found| {
-            let (desc, _) = scene(seed, index);
-            let failing = examine(&desc, trial, found);
-            if let Some((aspect, rays)) = failing {
-                let shrunk = shrink::shrink(desc, aspect, rays, trial.seed);
-                found.words.push(format!("seed {seed}, scene {index}, {aspect:?} fails; the smallest that does:"));
-                found.words.push(shrink::text(&shrunk));
-            }
+            alone(|| {
+                let (desc, _) = scene(seed, index);
+                let rays = trial.work(RAYS[0], RAYS[1]);
+                let examined = examine(&desc, "", &Aspect::ALL, rays, trial.seed, found);
+                tally.add(Entry { index, time: examined.time, compared: examined.compared });
+                if let Some(Failing { aspect, kind, rays }) = examined.failing {
+                    let said = if aspect == Aspect::Mitsuba { mitsuba::sayable(&desc) } else { None };
+                    let desc = said.unwrap_or(desc);
+                    let shrunk = shrink::shrink(desc, aspect, &kind, rays, trial.seed);
+                    let title = format!("the smallest scene found of which `{aspect:?}, {kind}` fails");
+                    found.exhibits.push(Exhibit::Listing(Listing { title, text: shrink::text(&shrunk) }));
+                }
+            });
         })
     };
     indices.map(task).collect()
 }
 
-/// Looks at a scene, and again at what is suspicious. The first aspect that fails, and the rays that show it.
-fn examine(desc: &desc::Scene, trial: &Trial, found: &mut Findings) -> Option<(Aspect, u64)> {
-    let start = Instant::now();
-    let mut failing = None;
-    let first = trial.work(RAYS[0], RAYS[1]);
+/// The battery's share: a scene a task, many in a thorough run, others for every seed of a run.
+pub(super) fn row() -> Vec<Task> {
+    let task = |number: u64| {
+        Task::new(X3, format!("scenes {number:02}"), move |trial, found| {
+            alone(|| {
+                for index in 0..trial.pick(1, MORE) {
+                    let (desc, _) = scene(trial.seed, index);
+                    let rays = trial.work(ROW_RAYS, ROW_RAYS);
+                    let name = format!("scene {index:05}, ");
+                    let examined = examine(&desc, &name, &Aspect::OURS, rays, trial.part(&name).seed, found);
+                    if examined.failing.is_some() {
+                        found.words.push(format!(
+                            "`radianza verify --random {} --seed {} --only 'scene {index:05}'` shrinks what fails",
+                            index + 1,
+                            trial.seed
+                        ));
+                    }
+                }
+            });
+        })
+    };
+    (0..ROW).map(task).collect()
+}
+
+/// Does work on one thread that does nothing else: a thread of a pool that waits takes up other tasks meanwhile, and
+/// how long its own took would say nothing.
+fn alone(work: impl FnOnce() + Send) {
+    let Ok(pool) = rayon::ThreadPoolBuilder::new().num_threads(1).build() else { return work() };
+    let done = std::thread::scope(|scope| scope.spawn(|| pool.install(work)).join());
+    if let Err(cause) = done {
+        std::panic::resume_unwind(cause);
+    }
+}
+
+/// What is known of a scene that was looked at.
+struct Examined {
+    /// The first failure.
+    failing: Option<Failing>,
+    /// How long the first looks took.
+    time: Duration,
+    /// Another renderer made an image too.
+    compared: bool,
+}
+
+/// What fails.
+struct Failing {
+    aspect: Aspect,
+    /// Its least likely kind of check.
+    kind: String,
+    /// Rays of an image that show it.
+    rays: u64,
+}
+
+/// Looks at aspects of a scene, and again at what is suspicious.
+fn examine(
+    desc: &desc::Scene,
+    name: &str,
+    aspects: &[Aspect],
+    first: u64,
+    seed: u64,
+    found: &mut Findings,
+) -> Examined {
+    let mut examined = Examined { failing: None, time: Duration::ZERO, compared: false };
     found.guarded = true;
-    for aspect in Aspect::ALL {
+    for &aspect in aspects {
+        let start = Instant::now();
         let mut rays = first;
-        let mut looked = look(desc, aspect, rays, hash(&[trial.seed, aspect as u64]));
+        let mut looked = look(desc, aspect, rays, hash(&[seed, aspect as u64]));
+        if aspect == Aspect::Mitsuba {
+            examined.compared = !looked.checks.checks().is_empty();
+        } else {
+            examined.time += start.elapsed();
+        }
         for (k, more) in AGAIN.into_iter().enumerate() {
-            if least(looked.checks.checks()) > SUSPECT || more > 1 && aspect == Aspect::Bits {
+            if least(looked.checks.checks()) > SUSPECT || aspect == Aspect::Bits {
                 break;
             }
             rays = first * more;
-            looked = look(desc, aspect, rays, hash(&[trial.seed, aspect as u64, k as u64 + 1]));
+            looked = look(desc, aspect, rays, hash(&[seed, aspect as u64, k as u64 + 1]));
         }
-        if failing.is_none() && least(looked.checks.checks()) < FAILS {
-            failing = Some((aspect, rays));
+        if examined.failing.is_none() && least(looked.checks.checks()) < FAILS {
+            examined.failing = Some(Failing { aspect, kind: kind(looked.checks.checks()), rays });
         }
-        let name = |name: &str| format!("{aspect:?}, {name}");
-        looked.checks.checks().iter().for_each(|check| found.checks.push(name(&check.name), check.evidence));
+        for check in looked.checks.checks() {
+            found.checks.push(format!("{name}{aspect:?}, {}", check.name), check.evidence);
+        }
         if least(looked.checks.checks()) < SUSPECT {
             found.words.extend(looked.words);
             found.exhibits.extend(looked.exhibits);
         }
     }
-    if failing.is_none() && start.elapsed() > SLOW {
-        found.words.push(format!("slow: {:.0} s", start.elapsed().as_secs_f64()));
+    examined
+}
+
+/// A small image by the path tracer, in replicates of all its samples.
+fn settings(spp: u32, seed: u64) -> Settings {
+    Settings {
+        size: [SIDE; 2],
+        crop: [0, 0, SIDE, SIDE],
+        camera: 0,
+        spp,
+        time: None,
+        replicate: spp,
+        integrator: Integrator::Path,
+        strategy: Strategy::Mis,
+        sampler: SamplerKind::Lattice,
+        // Headers and command lines carry 53 bits.
+        seed: seed >> 11,
+        max_depth: None,
+        filter: Filter::Box,
+        transport: false,
+        threads: 0,
+        tile: SIDE,
     }
-    failing
 }

@@ -1,5 +1,6 @@
 //! A few random objects on a floor, lit and seen by random means.
 
+use super::SIDE;
 use super::draw::Draw;
 use super::feature::{Feature, Features, Pair, lawful_pairs};
 use super::light;
@@ -20,9 +21,6 @@ const TRIES: usize = 3000;
 
 /// Pairs between those of successive turns: a prime.
 const STEP: u64 = 1_000_003;
-
-/// Pixels across and down.
-const SIZE: [u32; 2] = [16, 16];
 
 /// Scene `index` of `seed`, and what it has.
 pub fn scene(seed: u64, index: u64) -> (Scene, Features) {
@@ -225,6 +223,6 @@ impl Places {
         let z = (eye - target).normalize();
         let x = Vec3::Y.cross(z).normalize();
         let to_world = Mat4::from_cols(x.extend(0.0), z.cross(x).extend(0.0), z.extend(0.0), eye.extend(1.0));
-        Camera { name: String::new(), to_world, projection, resolution: Some(SIZE), aspect: None, lens }
+        Camera { name: String::new(), to_world, projection, resolution: Some([SIDE; 2]), aspect: None, lens }
     }
 }

@@ -1,7 +1,7 @@
 //! The smallest scene that still fails: edits that make a scene simpler are kept where it fails all the same, until none is
 //! left (Zeller & Hildebrandt 2002, "Simplifying and Isolating Failure-Inducing Input").
 
-use super::judge::{Aspect, least, look};
+use super::judge::{Aspect, least_of_kind, look};
 use super::prune::prune;
 use super::{FAILS, simpler};
 use crate::desc::{Mesh, Object, Projection, Scene, Shape};
@@ -11,9 +11,10 @@ use std::sync::Arc;
 /// Most looks that are spent on one scene.
 const LOOKS: usize = 120;
 
-/// Shrinks a scene whose `aspect` fails with so many rays an image.
-pub(super) fn shrink(mut scene: Scene, aspect: Aspect, rays: u64, seed: u64) -> Scene {
-    let fails = |scene: &Scene, rays: u64| least(look(scene, aspect, rays, seed).checks.checks()) < FAILS;
+/// Shrinks a scene of whose `aspect` the check `kind` fails with so many rays an image: to one of which it fails too, not
+/// another that an edit has broken.
+pub(super) fn shrink(mut scene: Scene, aspect: Aspect, kind: &str, rays: u64, seed: u64) -> Scene {
+    let fails = |scene: &Scene, rays: u64| least_of_kind(look(scene, aspect, rays, seed).checks.checks(), kind) < FAILS;
     // What is far off is seen with fewer rays.
     let rays = [rays / 64, rays / 8].into_iter().find(|fewer| fails(&scene, *fewer)).unwrap_or(rays);
     let mut looks = 0;
@@ -30,7 +31,7 @@ pub(super) fn shrink(mut scene: Scene, aspect: Aspect, rays: u64, seed: u64) -> 
 }
 
 /// The scene, each time with one thing less; the largest things first.
-fn candidates(scene: &Scene) -> Vec<Scene> {
+pub(super) fn candidates(scene: &Scene) -> Vec<Scene> {
     let mut candidates = Vec::new();
     let mut edit = |change: &dyn Fn(&mut Scene)| {
         let mut edited = scene.clone();
@@ -62,6 +63,10 @@ fn candidates(scene: &Scene) -> Vec<Scene> {
         edit(&|s| upright(&mut s.objects[i]));
     }
     for i in 0..scene.shapes.len() {
+        let bounds = |o: &Object| o.shape == i && crate::material::interior(&scene.materials[o.material]).is_some();
+        for shape in simpler::shapes(&scene.shapes[i], scene.objects.iter().any(bounds)) {
+            edit(&|s| s.shapes[i] = shape.clone());
+        }
         edit(&|s| bare(&mut s.shapes[i], |mesh| mesh.normals.clear()));
         edit(&|s| bare(&mut s.shapes[i], |mesh| mesh.tangents.clear()));
         edit(&|s| bare(&mut s.shapes[i], |mesh| mesh.colors.clear()));

@@ -1,8 +1,11 @@
-//! Materials with one thing less.
+//! Materials and shapes with one thing less.
 
 use crate::desc::{
-    Alpha, ColorParam, Emission, Material, MetallicRoughness, Model, ScalarParam, Sides, parameter::Value,
+    Alpha, ColorParam, Emission, Interior, Light, Material, Mesh, MetallicRoughness, Model, ScalarParam, Scene, Shape,
+    Sides, parameter::Value, primitives,
 };
+use glam::Vec3;
+use std::sync::Arc;
 
 /// A model, each time with one thing less.
 pub(super) fn models(model: &Model) -> Vec<Model> {
@@ -59,4 +62,76 @@ pub(super) fn untextured(material: &mut Material) {
         Value::Normals(map) => *map = None,
         Value::Rgb(_) | Value::Number(_) => {}
     });
+}
+
+/// A scene, each time without one kind of thing that other renderers rarely have.
+pub(super) fn plainer(scene: &Scene) -> Vec<Scene> {
+    let edits: [fn(&mut Scene); 9] = [
+        |s| s.lights.iter_mut().for_each(endless),
+        |s| s.lights.retain(|light| !matches!(light, Light::Profile { .. })),
+        |s| s.lights.retain(|light| !matches!(light, Light::Sun { .. })),
+        |s| s.environment.iter_mut().for_each(|e| e.image = None),
+        |s| s.materials.iter_mut().for_each(|m| m.interior = Interior::default()),
+        |s| s.materials.iter_mut().for_each(|m| m.normal_map = None),
+        |s| s.materials.iter_mut().for_each(untextured),
+        |s| s.objects.iter_mut().filter_map(|o| o.emission.as_mut()).for_each(|e| *e = emission(*e)),
+        |s| {
+            s.shapes.iter_mut().for_each(|shape| {
+                if let Shape::Mesh(mesh) = shape {
+                    Arc::make_mut(mesh).colors.clear();
+                }
+            })
+        },
+    ];
+    let edited = edits.map(|edit| {
+        let mut edited = scene.clone();
+        edit(&mut edited);
+        edited
+    });
+    edited.into_iter().filter(|edited| edited != scene).collect()
+}
+
+/// Without an end of its light.
+fn endless(light: &mut Light) {
+    if let Light::Point { range, .. } | Light::Spot { range, .. } = light {
+        *range = f32::INFINITY;
+    }
+}
+
+/// Fewest triangles of a mesh that something simpler stands for.
+const MANY: usize = 12;
+
+/// What may stand for a shape: a sphere, a box; either half of its triangles where it `bounds` no volume.
+pub(super) fn shapes(shape: &Shape, bounds: bool) -> Vec<Shape> {
+    let Shape::Mesh(mesh) = shape else { return Vec::new() };
+    let half = mesh.indices.len() / 2;
+    let mut simpler = Vec::new();
+    if mesh.indices.len() > MANY {
+        simpler.push(Shape::Sphere { radius: 0.5 });
+        simpler.push(Shape::Mesh(Arc::new(primitives::cuboid(Vec3::splat(-0.5), Vec3::splat(0.5)))));
+    }
+    if half > 0 && !bounds {
+        simpler
+            .extend([&mesh.indices[..half], &mesh.indices[half..]].map(|kept| Shape::Mesh(Arc::new(part(mesh, kept)))));
+    }
+    simpler
+}
+
+/// Some triangles of a mesh, with the vertices that they have.
+fn part(mesh: &Mesh, triangles: &[[u32; 3]]) -> Mesh {
+    let mut used: Vec<u32> = triangles.as_flattened().to_vec();
+    used.sort_unstable();
+    used.dedup();
+    fn of<T: Copy>(list: &[T], used: &[u32]) -> Vec<T> {
+        if list.is_empty() { Vec::new() } else { used.iter().map(|i| list[*i as usize]).collect() }
+    }
+    let number = |i: u32| used.binary_search(&i).map_or(0, |k| k as u32);
+    Mesh {
+        positions: of(&mesh.positions, &used),
+        indices: triangles.iter().map(|t| t.map(number)).collect(),
+        normals: of(&mesh.normals, &used),
+        tangents: of(&mesh.tangents, &used),
+        uv: [0, 1].map(|set| of(&mesh.uv[set], &used)),
+        colors: of(&mesh.colors, &used),
+    }
 }
