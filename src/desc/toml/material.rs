@@ -112,7 +112,8 @@ impl MaterialTable {
         material.double_sided = self.double_sided;
         if let Some(radiance) = &self.emission {
             let coat = match &self.emission_coat {
-                Some(coat) => Some(coat.build(b)?),
+                // A share of 0 says that there is none.
+                Some(coat) => Some(coat.build(b)?).filter(|coat| *coat != ScalarParam::constant(0.0)),
                 None => own_coat(&material.model),
             };
             material.emission = Some(Emission { radiance: radiance.build(b)?, sides: self.emission_sides, coat });
