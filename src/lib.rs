@@ -30,7 +30,7 @@
 //!
 //! ## Map
 //!
-//! Lower layers know nothing of higher ones; `tests/layers.rs` holds the table.
+//! Lower layers know nothing of higher ones; `tests/parts/layers.rs` holds the table.
 //!
 //! | layer | module | what is there |
 //! | --- | --- | --- |

@@ -1,6 +1,6 @@
 //! What the battery said, row by row.
 
-use crate::patch::Result;
+use super::patch::Result;
 use serde::{Deserialize, Serialize};
 use std::fs;
 use std::path::Path;

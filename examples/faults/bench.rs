@@ -1,8 +1,8 @@
 //! What the battery says to a fault: found now, or kept from an earlier run.
 
+use super::patch::{Patch, Result};
 use crate::battery::{Asked, Outcome};
 use crate::many::Many;
-use crate::patch::{Patch, Result};
 use crate::reach::Reach;
 use crate::tree::Tree;
 use crate::workshop::{Run, Workshop};

@@ -1,6 +1,6 @@
 //! The program that holds all faults that one program can hold.
 
-use crate::patch::{Patch, Result};
+use super::patch::{Patch, Result};
 use crate::schemata::{Change, Number, SWITCH, changes, combine};
 use crate::tree::{Files, Tree};
 use crate::workshop::{Broken, Workshop};

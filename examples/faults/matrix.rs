@@ -1,7 +1,7 @@
 //! Which row notices which fault.
 
+use super::patch::Patch;
 use crate::battery::Outcome;
-use crate::patch::Patch;
 use std::fmt::Write;
 
 /// What stands at the top of the written matrix.

@@ -1,8 +1,8 @@
 //! Which subjects of the battery can notice a fault at all: those that run a function that it changes. In all others the
 //! program does the same with the fault as without, to the bit, and need not be asked.
 
+use super::patch::Result;
 use crate::many::Many;
-use crate::patch::Result;
 use crate::schemata::Number;
 use crate::workshop::Workshop;
 use std::collections::{BTreeMap, BTreeSet};

@@ -12,7 +12,7 @@
 //! Bodies are found by parsing, and moved as text. What cannot be chosen while the program runs is left to a build of its
 //! own: constants, types, signatures, `const fn`, and functions whose `impl Trait` is another type in either body.
 
-use crate::patch::Result;
+use super::patch::Result;
 use std::ops::Range;
 use syn::visit::{self, Visit};
 

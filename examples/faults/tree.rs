@@ -1,6 +1,6 @@
 //! The copies of the tree in which faults are planted.
 
-use crate::patch::{FilePatch, Patch, Result};
+use super::patch::{FilePatch, Patch, Result};
 use std::collections::BTreeMap;
 use std::fs;
 use std::hash::{DefaultHasher, Hash, Hasher};

@@ -1,7 +1,7 @@
 //! Building programs, and letting them verify themselves.
 
+use super::patch::Result;
 use crate::battery::{Outcome, crash};
-use crate::patch::Result;
 use crate::schemata::{Number, RECORD};
 use crate::tree::{Files, Tree};
 use serde::Deserialize;

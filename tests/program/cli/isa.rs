@@ -1,6 +1,6 @@
 //! The kernels of the traversal, as the environment chooses them.
 
-use crate::{folder, triangle};
+use super::{folder, triangle};
 use assert_cmd::Command;
 use radianza::bvh::Isa;
 use std::path::Path;

@@ -121,7 +121,7 @@ proptest! {
     }
 }
 
-/// `cargo test --test readers -- --ignored seeds`.
+/// `cargo test --test input -- --ignored seeds`.
 #[test]
 #[ignore = "writes tests/fuzz/corpus"]
 fn seeds_of_the_fuzzer() {

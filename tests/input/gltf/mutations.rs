@@ -155,7 +155,7 @@ fn the_document_that_is_changed_is_valid() {
     assert_eq!((scene.objects.len(), scene.shapes.len()), (3, 2));
 }
 
-/// `cargo test --test gltf -- --ignored seeds`.
+/// `cargo test --test input -- --ignored seeds`.
 #[test]
 #[ignore = "writes tests/fuzz/corpus/gltf"]
 fn seeds_of_the_fuzzer() {

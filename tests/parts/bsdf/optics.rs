@@ -1,7 +1,7 @@
 //! Films, gloss and the classic lobes, as written, through to their light.
 
-use crate::material::{compile, gltf, surface};
-use crate::{at_cosine, sampled_albedo};
+use super::material::{compile, gltf, surface};
+use super::{at_cosine, sampled_albedo};
 use radianza::bsdf::{Bsdf, Class, Lobe, Transport};
 use radianza::desc::{ColorParam, Fresnel, Iridescence, Model, Roughness, ScalarParam, SpecularGlossiness};
 use radianza::glam::Vec3;

@@ -1,8 +1,6 @@
 //! Mechanics of the estimators: images do not depend on threads and tiles, classes sum to the whole, replays repeat.
 
-mod common;
-
-use common::{SAMPLERS, film, load, repo, settings};
+use crate::common::{SAMPLERS, film, load, repo, settings};
 use radianza::desc::SamplerKind;
 use radianza::film::Film;
 use radianza::render::{Next, Pixels, Schedule, Settings, render_by};

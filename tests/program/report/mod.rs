@@ -3,8 +3,6 @@
 
 mod browser;
 mod example;
-#[path = "../common/skip.rs"]
-mod skip;
 
 use browser::Browser;
 use radianza::verify::report::html;

@@ -1,6 +1,6 @@
 //! Choice among lobes: the split of F3, and the three ways to ask for deltas.
 
-use crate::{at_cosine, replicates};
+use super::{at_cosine, replicates};
 use radianza::bsdf::{Bsdf, Fresnel, Lobe, MAX_LOBES, Mirror, Pdf, SmoothDielectric, Transport, specimens};
 use radianza::spectrum::Spectrum;
 use radianza::stats::Family;

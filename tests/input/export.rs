@@ -1,11 +1,7 @@
 //! `radianza export`, from outside: what the files hold, what is refused, and what Mitsuba makes of them.
 
-mod common;
-#[path = "common/skip.rs"]
-mod skip;
-
+use crate::common::repo;
 use assert_cmd::Command;
-use common::repo;
 use quick_xml::Reader;
 use quick_xml::events::Event;
 use radianza::film::exr::read_exr;
@@ -282,7 +278,7 @@ for seed in range(int(sys.argv[2])):
 #[test]
 fn mitsuba_sees_the_same() {
     let Some(python) = std::env::var_os("RADIANZA_MITSUBA") else {
-        return skip::skip("RADIANZA_MITSUBA names no Python with mitsuba");
+        return crate::skip::skip("RADIANZA_MITSUBA names no Python with mitsuba");
     };
     let folder = tempfile::tempdir().unwrap();
     for (scene, model) in [

@@ -1,6 +1,6 @@
 //! Materials as written, through to their lobes.
 
-use crate::{at_cosine, sampled_albedo};
+use super::{at_cosine, sampled_albedo};
 use radianza::bsdf::{Bsdf, Transport};
 use radianza::desc::{self, Alpha, ColorParam, Emission, Fresnel, Model, NormalMap, Roughness, ScalarParam, Sides};
 use radianza::desc::{Image, Layers, MetallicRoughness, Pixels, Texture, TextureRef, Transmission, Wrap};

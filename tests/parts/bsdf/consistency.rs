@@ -1,6 +1,6 @@
 //! Corners of the parameters give numbers: nothing is NaN, negative or outside, and specular parts are parts.
 
-use crate::at_cosine;
+use super::at_cosine;
 use radianza::bsdf::{Pdf, Transport, specimens};
 use radianza::glam::Vec3;
 use radianza::warp::ONE_MINUS_EPSILON;

@@ -1,9 +1,9 @@
 //! The planted faults of `reference/faults/`: each patch still applies to the tree, and the written matrix knows it.
 //! What they do to the battery is seen by `cargo run --release --example faults`.
 
-#[path = "../examples/faults/patch.rs"]
+#[path = "../../examples/faults/patch.rs"]
 mod patch;
-#[path = "../examples/faults/schemata.rs"]
+#[path = "../../examples/faults/schemata.rs"]
 mod schemata;
 
 use patch::{Patch, load};

@@ -1,8 +1,6 @@
 //! Emissive surfaces: however light is sampled, the image is one.
 
-mod common;
-
-use common::{film, settings};
+use crate::common::{film, settings};
 use radianza::desc::{self, Strategy, toml};
 use radianza::render::Settings;
 use radianza::scene::Scene;
@@ -140,7 +138,7 @@ fn convex_lamps_do_not_light_themselves() {
             let text =
                 format!("[[shape]]\ntype = 'sphere'\nmaterial = '{material}'\nemission = 4\nemission_sides = 'both'");
             let mut scene = parse(&close_up(&text));
-            let (positions, indices) = common::closed_mesh(12, 1.0, glam::Vec3::ZERO);
+            let (positions, indices) = crate::common::closed_mesh(12, 1.0, glam::Vec3::ZERO);
             let normals = if round { positions.clone() } else { Vec::new() };
             let mesh = desc::Mesh { positions, indices, normals, ..desc::Mesh::default() };
             scene.shapes[0] = desc::Shape::Mesh(mesh.into());

@@ -1,11 +1,7 @@
 //! Files made by others, through to an image: each one loads, compiles and renders without a sample that is no radiance,
 //! or is refused for what it requires. They are named by the environment variable RADIANZA_ASSETS.
 
-mod common;
-#[path = "common/skip.rs"]
-mod skip;
-
-use common::{film, settings};
+use crate::common::{film, settings};
 use radianza::desc::{self, ErrorKind};
 use radianza::render::Settings;
 use radianza::scene::Scene;
@@ -25,7 +21,7 @@ fn scenes_below(folder: &Path, found: &mut Vec<PathBuf>) {
 #[test]
 fn files_of_others_render_or_are_refused_by_name() {
     let Some(folder) = std::env::var_os("RADIANZA_ASSETS").map(PathBuf::from) else {
-        return skip::skip("RADIANZA_ASSETS names no folder of files to try");
+        return crate::skip::skip("RADIANZA_ASSETS names no folder of files to try");
     };
     let mut found = Vec::new();
     scenes_below(&folder, &mut found);

@@ -1,26 +1,14 @@
 //! The readers: what they accept, and what they say of what they do not.
 
-#[path = "readers/broken.rs"]
 mod broken;
-#[path = "readers/images.rs"]
 mod images;
-#[path = "readers/lights.rs"]
 mod lights;
-#[path = "readers/models.rs"]
 mod models;
-#[path = "readers/schema.rs"]
 mod schema;
-#[path = "common/skip.rs"]
-mod skip;
-#[path = "readers/toml_budgets.rs"]
 mod toml_budgets;
-#[path = "readers/toml_errors.rs"]
 mod toml_errors;
-#[path = "readers/toml_optics.rs"]
 mod toml_optics;
-#[path = "readers/toml_values.rs"]
 mod toml_values;
-#[path = "readers/toml_written.rs"]
 mod toml_written;
 
 use std::path::{Path, PathBuf};
@@ -31,7 +19,7 @@ fn assets(name: &str) -> Option<PathBuf> {
     match folder {
         Some(folder) if folder.is_dir() => Some(folder),
         _ => {
-            skip::skip(&format!("RADIANZA_ASSETS names no folder that has `{name}`"));
+            crate::skip::skip(&format!("RADIANZA_ASSETS names no folder that has `{name}`"));
             None
         }
     }

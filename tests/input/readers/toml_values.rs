@@ -18,7 +18,7 @@ fn close(a: Vec3, b: Vec3) -> bool {
 
 #[test]
 fn the_documented_example_is_read() {
-    let source = include_str!("../../src/desc/toml/mod.rs");
+    let source = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/src/desc/toml/mod.rs"));
     let docs = source.lines().map_while(|l| l.strip_prefix("//!")).map(|l| l.strip_prefix(' ').unwrap_or(l));
     let example: Vec<_> = docs.skip_while(|l| *l != "```toml").skip(1).take_while(|l| *l != "```").collect();
     let scene = scene(&example.join("\n"));

@@ -212,7 +212,7 @@ fn assets_decode() {
     assert!(seen > 0);
 }
 
-/// `cargo test --test readers -- --ignored seeds`.
+/// `cargo test --test input -- --ignored seeds`.
 #[test]
 #[ignore = "writes tests/fuzz/corpus/image"]
 fn seeds_of_the_fuzzer() {

@@ -1,8 +1,6 @@
 //! No ray slips between triangles that share an edge or a vertex, and none through the surface that it leaves.
 
-mod common;
-
-use common::closed_mesh;
+use crate::common::closed_mesh;
 use glam::Vec3;
 use radianza::bsdf::Scratch;
 use radianza::bvh::{Isa, Quality, TriangleBvh, TriangleRef};

@@ -1,8 +1,6 @@
 //! Traversal: the right hit, the same on every kernel.
 
-mod common;
-
-use common::closed_mesh;
+use crate::common::closed_mesh;
 use glam::{Quat, Vec3, Vec3A};
 use proptest::prelude::*;
 use radianza::bvh::{Aabb, BoxBvh, Isa, Quality, TriangleBvh, TriangleRef};

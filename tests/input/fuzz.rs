@@ -1,6 +1,6 @@
 //! The targets of `tests/fuzz/`, on their seeds and on changes of them: what a fuzzer does, for a second.
 
-#[path = "fuzz/bodies.rs"]
+#[path = "../fuzz/bodies.rs"]
 mod bodies;
 
 use rand::{RngExt, SeedableRng};
