@@ -76,21 +76,26 @@ impl Bench {
         keep(&file, self.workshop.run(run, &only, !full)?)
     }
 
-    /// What the battery says to a fault; from an earlier run where it met the same tree.
+    /// What the battery says to a fault; from an earlier run where it met the same tree. Of findings of an earlier tree, rows
+    /// that they lack are asked now.
     pub(crate) fn outcome(&mut self, patch: &Patch, sound: &Outcome, limit: Duration) -> Result<Outcome> {
         let key = self.extent.key(&patch.rows);
-        let mut file = self.found.join(format!("{}-{:016x}{key}.json", patch.name, self.tree.hash(Some(patch))?));
-        if self.stale && !file.exists() {
-            file = self.earlier(&patch.name, &key)?.unwrap_or(file);
+        let file = self.found.join(format!("{}-{:016x}{key}.json", patch.name, self.tree.hash(Some(patch))?));
+        if let Some(outcome) = kept(&file) {
+            return Ok(outcome);
         }
-        match kept(&file) {
-            Some(outcome) => Ok(outcome),
-            None => keep(&file, self.ask(patch, sound, limit)?),
-        }
+        let earlier = if self.stale { self.earlier(&patch.name, &key)? } else { None };
+        let known = earlier.as_deref().and_then(kept).unwrap_or_else(Outcome::nothing);
+        let outcome = self.ask(patch, &known, sound, limit)?;
+        keep(&earlier.unwrap_or(file), outcome)
     }
 
-    /// Builds where need be, and runs.
-    fn ask(&mut self, patch: &Patch, sound: &Outcome, limit: Duration) -> Result<Outcome> {
+    /// Builds where need be, and runs the rows that are not known.
+    fn ask(&mut self, patch: &Patch, known: &Outcome, sound: &Outcome, limit: Duration) -> Result<Outcome> {
+        let young = |row: &str| !known.rows.iter().any(|known| known.id == row);
+        if known.ended.is_some() || !sound.rows.iter().any(|row| young(&row.id)) {
+            return Ok(known.clone());
+        }
         let (mut program, fault) = {
             let many = self.many()?;
             (many.program.clone(), many.numbers.get(&patch.name).copied())
@@ -105,28 +110,29 @@ impl Bench {
         }
 
         // Quickly, in all subjects that may notice.
-        let named = |subject: &str| patch.rows.iter().any(|row| subject.split('/').next() == Some(row));
         let all = self.extent == Extent::Quick;
+        let asked = |row: &str| young(row) && (all || patch.rows.iter().any(|named| named == row));
         let reach = self.reach(&sound.subjects)?;
-        let only: Vec<String> = reach.subjects(fault).filter(|subject| all || named(subject)).cloned().collect();
-        let quick = match only.is_empty() {
-            true => Outcome::nothing(),
-            false => self.workshop.run(run, &only, true)?,
-        };
-        if quick.ended.is_some() {
-            return Ok(quick);
+        let subjects = reach.subjects(fault).filter(|subject| subject.split('/').next().is_some_and(asked));
+        let only: Vec<String> = subjects.cloned().collect();
+        let mut outcome = known.clone();
+        if !only.is_empty() {
+            outcome = outcome.with(self.workshop.run(run, &only, true)?, Asked::Excerpt);
+        }
+        if all && outcome.ended.is_none() {
+            outcome = outcome.filled(sound);
         }
 
         // Rows that should have noticed and have not: all their subjects, then in full.
-        let mut outcome = if all { quick.filled(sound) } else { quick };
         for asked in [Asked::Quick, Asked::Full] {
-            let missed = patch.rows.iter().filter(|row| !outcome.notices(row)).map(|row| format!("{row}/"));
-            let missed: Vec<String> = missed.collect();
+            let missed = patch.rows.iter().filter(|row| young(row) && !outcome.notices(row));
+            let missed: Vec<String> = missed.map(|row| format!("{row}/")).collect();
             if !missed.is_empty() && outcome.ended.is_none() {
                 let again = self.workshop.run(run, &missed, asked != Asked::Full)?;
                 outcome = outcome.with(again, asked);
             }
         }
+        outcome.rows.sort_by_key(|row| sound.rows.iter().position(|known| known.id == row.id));
         Ok(outcome)
     }
 
@@ -149,7 +155,7 @@ impl Bench {
         self.reach.as_ref().ok_or_else(|| "nothing is known of the subjects".into())
     }
 
-    /// What some earlier tree with this fault was found to do in these rows.
+    /// What the last earlier tree with this fault was found to do in these rows.
     fn earlier(&self, name: &str, rows: &str) -> Result<Option<PathBuf>> {
         let files = fs::read_dir(&self.found).map_err(|e| format!("{}: {e}", self.found.display()))?;
         let matches = |path: &PathBuf| {
@@ -158,7 +164,8 @@ impl Bench {
                 file.strip_prefix(&format!("{name}-")).and_then(|rest| rest.strip_suffix(&format!("{rows}.json")));
             hash.is_some_and(|hash| hash.len() == 16 && hash.chars().all(|c| c.is_ascii_hexdigit()))
         };
-        Ok(files.filter_map(|entry| Some(entry.ok()?.path())).find(matches))
+        let newest = |path: &PathBuf| fs::metadata(path).and_then(|data| data.modified()).ok();
+        Ok(files.filter_map(|entry| Some(entry.ok()?.path())).filter(matches).max_by_key(newest))
     }
 }
 

@@ -61,7 +61,7 @@ struct Arguments {
     /// Run every row in its default size, not an eighth of it
     #[arg(long)]
     whole: bool,
-    /// Take what was found for a fault in earlier trees, where this one was not asked
+    /// Take what was found for a fault in an earlier tree, where this one was not asked, and ask only rows that are younger
     #[arg(long)]
     stale: bool,
     /// Write reference/faults.md

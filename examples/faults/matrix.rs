@@ -12,8 +12,9 @@ a fault counts as caught by the rows in which a check fails. The unmodified tree
 Written by `cargo run --release --example faults -- --write`, which fails where a fault is caught by nothing, where a row
 that a patch names does not notice it, or where a row notices none. ● has noticed, ○ has not. Every row was
 asked as `verify --quick` asks it: a third of its subjects at an eighth of the work, so that a small effect may hide behind
-a ○; where a row that the patch names noticed nothing then, it was asked again in full. Where nothing stands the row is
-younger than the fault's last run (`--stale` takes findings of earlier trees).
+a ○. A row whose subjects run no code that the fault changes cannot notice it. Where a row that the patch names noticed
+nothing, it was asked again in all its subjects, and then in full. Findings of earlier trees count where `--stale` says so,
+and then only rows that are younger were asked anew.
 ";
 
 /// The faults that were planted, and what the battery said to each.
