@@ -4,7 +4,7 @@
 //! cargo run --release --example faults                     # all of reference/faults/ against every row
 //! cargo run --release --example faults -- mis-weights      # those named
 //! cargo run --release --example faults -- --named-rows     # each against the rows that its patch names, which is quicker
-//! cargo run --release --example faults -- --budget 900 --from 40    # as many as begin within 900 s, from the 40th on
+//! cargo run --release --example faults -- --budget 720 --from 40    # as many as begin within 720 s, from the 40th on
 //! cargo run --release --example faults -- --write          # all, and reference/faults.md anew
 //! ```
 //!
