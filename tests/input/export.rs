@@ -367,6 +367,7 @@ fn what_emits_through_holes_emits_by_its_coverage() {
     }
     let xml = std::fs::read_to_string(folder.path().join("a.xml")).unwrap();
     assert!(xml.contains(r#"name="radiance" value="2, 1, 0.5""#), "{xml}");
+    assert!(xml.contains("dimmed by them twice"), "{xml}");
     assert_eq!((count(&xml, "emitter", "area"), count(&xml, "bsdf", "null")), (3, 1));
     let file = xml.split("\"a-mitsuba/").find_map(|s| s.split('"').next().filter(|f| f.ends_with(".exr")));
     let image = read_exr(&folder.path().join("a-mitsuba").join(file.expect("a picture of the lamp"))).unwrap();

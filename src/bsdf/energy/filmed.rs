@@ -174,16 +174,16 @@ mod tests {
     fn one_quadrature_serves_all_films() {
         let (eta, film) = (1.5, 1.8);
         let many = FilmedEnergy::new(eta, [0.2, 0.8], film, [100.0, 700.0]);
-        for (alpha, thickness) in [(0.2, 100.0), (0.8, 700.0), (0.47, 333.0)] {
+        for (alpha, thickness, tolerance) in [(0.2, 100.0, 1e-3), (0.8, 700.0, 1e-3), (0.47, 333.0, 3e-3)] {
             let one = FilmedEnergy::new(eta, [alpha; 2], film, [thickness; 2]);
             let bare = DielectricEnergy::isotropic(alpha, eta);
             for z in [0.05f32, 0.3, 0.7, 1.0, -0.05, -0.5, -0.7, -0.76, -1.0] {
                 let w = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
                 let [a, b] = [&many, &one].map(|table| table.loss(&bare, w, thickness, 1.0).0.truncate());
-                assert!(a.abs_diff_eq(b, 1e-3), "α {alpha}, {thickness} nm, μ {z}: {a} {b}");
+                assert!(a.abs_diff_eq(b, tolerance), "α {alpha}, {thickness} nm, μ {z}: {a} {b}");
             }
             let [a, b] = [&many, &one].map(|table| table.mean_loss(&bare, thickness, 1.0).map(|m| m.0.truncate()));
-            assert!(a[0].abs_diff_eq(b[0], 1e-3) && a[1].abs_diff_eq(b[1], 1e-3), "{a:?} {b:?}");
+            assert!(a[0].abs_diff_eq(b[0], tolerance) && a[1].abs_diff_eq(b[1], tolerance), "{a:?} {b:?}");
         }
     }
 }

@@ -1,8 +1,8 @@
 //! What a surface with holes emits.
 //!
 //! pbrt finds a light where it finds the surface, and samples it likewise. Mitsuba's `area` emitter shines in full wherever a
-//! ray meets the shape, whatever the `mask` about its BSDF lets through: there the radiance itself is that of what is there,
-//! coverage × Lₑ.
+//! path meets the shape, whatever the `mask` about its BSDF lets through: there the radiance itself is that of what is there,
+//! coverage × Lₑ. To rays of the camera alone its `path` integrator shows the shape by its coverage (3.9), once too often.
 
 use super::ExportError;
 use super::beside::Beside;
@@ -13,6 +13,9 @@ use crate::desc::{Alpha, ColorParam, ScalarParam, Texture, TextureRef};
 impl Beside<'_> {
     /// Coverage × radiance, as far as one texture holds both; else all of the surface shines, and a note says so.
     pub(super) fn covered_radiance(&mut self, radiance: &ColorParam, alpha: &Alpha) -> Result<Color, ExportError> {
+        if *alpha != Alpha::Opaque {
+            self.note("what emits through holes is dimmed by them twice where the camera itself sees it");
+        }
         let (coverage, map) = match alpha {
             Alpha::Opaque => return self.radiance(radiance),
             Alpha::Mask { coverage, cutoff } => (coverage, Map::AtLeast(*cutoff)),

@@ -7,7 +7,7 @@ use super::prune::prune;
 use super::shrink::candidates;
 use super::{SIDE, settings, simpler};
 use crate::desc::export::{ExportError, Target, View, Written, export};
-use crate::desc::{self, Filter, Integrator};
+use crate::desc::{self, Filter, Integrator, Shape};
 use crate::verify::Findings;
 use crate::verify::agreement::agreement;
 use crate::verify::replicated::{Replicated, renders};
@@ -71,10 +71,13 @@ pub(super) fn sayable(desc: &desc::Scene) -> Option<desc::Scene> {
     is_lit.then_some(scene)
 }
 
-/// How many things of a scene Mitsuba cannot say exactly.
+/// How many things of a scene Mitsuba cannot say exactly: what notes name, and interpolated normals, whose leaked light it
+/// drops.
 fn notes(desc: &desc::Scene) -> usize {
     let Ok(folder) = tempfile::tempdir() else { return usize::MAX };
-    written(desc, &folder.path().join("scene.xml"), 1).map_or(usize::MAX, |written| written.notes.len())
+    let smooth = |shape: &&Shape| matches!(shape, Shape::Mesh(mesh) if !mesh.normals.is_empty());
+    let smooth = desc.shapes.iter().filter(smooth).count();
+    written(desc, &folder.path().join("scene.xml"), 1).map_or(usize::MAX, |written| written.notes.len() + smooth)
 }
 
 /// Writes the scene for Mitsuba.

@@ -85,9 +85,9 @@ pub fn tasks(seed: u64, indices: Range<u64>, tally: &Tally) -> Vec<Task> {
                 let rays = trial.work(RAYS[0], RAYS[1]);
                 let examined = examine(&desc, "", &Aspect::ALL, rays, trial.seed, found);
                 tally.add(Entry { index, time: examined.time, compared: examined.compared });
-                if let Some(Failing { aspect, kind, rays }) = examined.failing {
+                for Failing { aspect, kind, rays } in examined.failing {
                     let said = if aspect == Aspect::Mitsuba { mitsuba::sayable(&desc) } else { None };
-                    let desc = said.unwrap_or(desc);
+                    let desc = said.unwrap_or_else(|| desc.clone());
                     let shrunk = shrink::shrink(desc, aspect, &kind, rays, trial.seed);
                     let title = format!("the smallest scene found of which `{aspect:?}, {kind}` fails");
                     found.exhibits.push(Exhibit::Listing(Listing { title, text: shrink::text(&shrunk) }));
@@ -108,7 +108,7 @@ pub(super) fn row() -> Vec<Task> {
                     let rays = trial.work(ROW_RAYS, ROW_RAYS);
                     let name = format!("scene {index:05}, ");
                     let examined = examine(&desc, &name, &Aspect::OURS, rays, trial.part(&name).seed, found);
-                    if examined.failing.is_some() {
+                    if !examined.failing.is_empty() {
                         found.words.push(format!(
                             "`radianza verify --random {} --seed {} --only 'scene {index:05}'` shrinks what fails",
                             index + 1,
@@ -134,8 +134,8 @@ fn alone(work: impl FnOnce() + Send) {
 
 /// What is known of a scene that was looked at.
 struct Examined {
-    /// The first failure.
-    failing: Option<Failing>,
+    /// Of each aspect that fails, the least likely check.
+    failing: Vec<Failing>,
     /// How long the first looks took.
     time: Duration,
     /// Another renderer made an image too.
@@ -160,7 +160,7 @@ fn examine(
     seed: u64,
     found: &mut Findings,
 ) -> Examined {
-    let mut examined = Examined { failing: None, time: Duration::ZERO, compared: false };
+    let mut examined = Examined { failing: Vec::new(), time: Duration::ZERO, compared: false };
     found.guarded = true;
     for &aspect in aspects {
         let start = Instant::now();
@@ -178,8 +178,8 @@ fn examine(
             rays = first * more;
             looked = look(desc, aspect, rays, hash(&[seed, aspect as u64, k as u64 + 1]));
         }
-        if examined.failing.is_none() && least(looked.checks.checks()) < FAILS {
-            examined.failing = Some(Failing { aspect, kind: kind(looked.checks.checks()), rays });
+        if least(looked.checks.checks()) < FAILS {
+            examined.failing.push(Failing { aspect, kind: kind(looked.checks.checks()), rays });
         }
         for check in looked.checks.checks() {
             found.checks.push(format!("{name}{aspect:?}, {}", check.name), check.evidence);

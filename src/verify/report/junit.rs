@@ -160,7 +160,7 @@ mod tests {
         let get = |attributes: &Vec<(String, String)>, key: &str| {
             attributes.iter().find(|a| a.0 == key).map(|a| a.1.clone()).unwrap_or_default()
         };
-        assert_eq!((named("testsuites").len(), named("testsuite").len(), named("testcase").len()), (1, 2, 5));
+        assert_eq!((named("testsuites").len(), named("testsuite").len(), named("testcase").len()), (1, 2, 6));
         assert_eq!(get(named("testsuites")[0], "failures"), "1");
         assert_eq!(get(named("testsuite")[0], "name"), "A1 Albedo & <energy>");
         assert_eq!(get(named("testcase")[0], "classname"), "A1/paint <script>alert(1)</script>");

@@ -197,7 +197,7 @@ pub(super) mod tests {
         let report = example(false);
         let groups = report.groups();
         assert_eq!(groups.iter().map(|g| (g.topic.id, g.sections.len())).collect::<Vec<_>>(), [("A1", 2), ("B2", 2)]);
-        assert_eq!(report.random(), 4);
+        assert_eq!(report.random(), 5);
         assert!(report.passes() && !example(true).passes());
     }
 
