@@ -196,6 +196,9 @@ impl Bsdf {
 
     /// Directional albedo, reflection and transmission together.
     pub fn albedo(&self, wo: Vec3) -> Spectrum {
+        if let Some(albedo) = self.lambert {
+            return albedo;
+        }
         let t = transmitted(&self.layers, wo);
         self.entries.iter().map(|e| e.albedo(wo, &self.layers, &t)).sum()
     }

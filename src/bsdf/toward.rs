@@ -155,6 +155,19 @@ impl<'a> BsdfAt<'a> {
     /// scatters, where the draw failed (its share of the density is lost: it counts as 0), or at a grazing `wo`.
     #[inline(always)]
     pub fn sample(&self, uc: f32, u: [f32; 2], mode: Transport) -> Option<Sample> {
+        self.sample_and(uc, u, mode, Some)
+    }
+
+    /// [`Self::sample`] and what follows it, `then`: which is inlined twice, so that the draw of a Lambertian lobe stays in
+    /// registers. Where it met the result of a call, both would pass through memory.
+    #[inline(always)]
+    pub(crate) fn sample_and<T>(
+        &self,
+        uc: f32,
+        u: [f32; 2],
+        mode: Transport,
+        then: impl Fn(Sample) -> Option<T>,
+    ) -> Option<T> {
         if self.wo.z == 0.0 {
             return None;
         }
@@ -162,9 +175,10 @@ impl<'a> BsdfAt<'a> {
             Some(weight) => {
                 let wi = sample_cosine(self.wo, u);
                 let pdf = Pdf::SolidAngle(wi.z.abs() * FRAC_1_PI);
-                (wi.z != 0.0).then_some(Sample { wi, weight, specular: Spectrum::ZERO, pdf, eta: 1.0 })
+                let draw = Sample { wi, weight, specular: Spectrum::ZERO, pdf, eta: 1.0 };
+                if wi.z == 0.0 { None } else { then(draw) }
             }
-            None => self.sample_mixture(uc, u, mode),
+            None => then(self.sample_mixture(uc, u, mode)?),
         }
     }
 

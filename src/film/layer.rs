@@ -195,20 +195,6 @@ pub static GROUPS: [Group; 7] = [
     },
 ];
 
-/// Channels of all layers together.
-pub(super) const MOST_CHANNELS: usize = {
-    let (mut n, mut group) = (0, 0);
-    while group < GROUPS.len() {
-        let mut layer = 0;
-        while layer < GROUPS[group].layers.len() {
-            n += GROUPS[group].layers[layer].channels.len();
-            layer += 1;
-        }
-        group += 1;
-    }
-    n
-};
-
 /// The layer of a transport class. A class is what is left of a sum without others, so that rounding may make it negative.
 const fn class(index: usize, of: Of) -> Layer {
     Layer { name: CLASSES[index], image: CLASSES[index], channels: RGB, kind: Kind::Estimate, signed: true, of }

@@ -12,15 +12,20 @@ pub struct Invalid {
     pub value: [f32; 3],
 }
 
+/// So many sums are added to at a time.
+pub(super) const LANES: usize = 4;
+
 /// The layers of a film, and their places in a pixel's sums.
 #[derive(Clone, Debug)]
 pub struct Layers {
     pub(super) slots: Arc<[Slot]>,
     /// Sums of a pixel.
     pub(super) sums: usize,
+    /// Those of a pixel of a replicate, where they are padded to whole [`LANES`].
+    pub(super) stride: usize,
     /// Sums of squares of a pixel.
     pub(super) squares: usize,
-    /// The least that a sample may give to each sum.
+    /// The least that a sample may give to each sum, padded too.
     pub(super) least: Arc<[f32]>,
     /// The first sum of each layer that samples give something to, and what they give.
     pub(super) fed: Arc<[(usize, Of)]>,
@@ -63,7 +68,9 @@ impl Layers {
         }
         let fed =
             slots.iter().filter(|slot| slot.layer.kind != Kind::Count).map(|slot| (slot.sum, slot.layer.of)).collect();
-        Self { slots: slots.into(), sums, squares, least: least.into(), fed }
+        let stride = sums.next_multiple_of(LANES);
+        least.resize(stride, f32::MIN);
+        Self { slots: slots.into(), sums, stride, squares, least: least.into(), fed }
     }
 
     /// What films keep: the layers that all of them do, and transport classes where they are asked for.

@@ -101,8 +101,11 @@ impl Film {
     pub fn add(&mut self, replicate: &Replicate) {
         assert_eq!(self.layers, replicate.layers, "replicates of other layers");
         let [x0, y0, x1, _] = replicate.area;
-        let (width, stride) = ((x1 - x0).max(1) as usize, self.layers.sums);
-        for (j, &samples) in replicate.samples.iter().enumerate().filter(|(_, n)| **n > 0) {
+        let width = (x1 - x0).max(1) as usize;
+        let Layers { sums: count, stride, squares, .. } = self.layers;
+        let estimates: Vec<_> = self.layers.estimates().map(|(slot, square)| (slot.range(), square)).collect();
+        for (j, new) in replicate.sums.chunks_exact(stride).enumerate().filter(|(j, _)| replicate.samples[*j] > 0) {
+            let samples = replicate.samples[j];
             if self.replicate == 0 {
                 self.replicate = samples;
             }
@@ -110,12 +113,12 @@ impl Film {
             let i = index(self.crop, [x0 + (j % width) as u32, y0 + (j / width) as u32]);
             self.replicates[i] += 1;
             self.met[i] += u64::from(replicate.met[j]);
-            let new = &replicate.sums[j * stride..][..stride];
-            let squares = &mut self.squares[i * self.layers.squares..][..self.layers.squares];
-            for (slot, square) in self.layers.estimates() {
-                squares[square..].iter_mut().zip(&new[slot.range()]).for_each(|(q, s)| *q += s * s);
+            let (sums, squares) = (&mut self.sums[i * count..][..count], &mut self.squares[i * squares..][..squares]);
+            for (range, square) in &estimates {
+                for (q, s) in squares[*square..].iter_mut().zip(&new[range.clone()]) {
+                    *q += s * s;
+                }
             }
-            let sums = &mut self.sums[i * stride..][..stride];
             sums.iter_mut().zip(new).for_each(|(sum, s)| *sum += s);
         }
     }

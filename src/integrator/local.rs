@@ -15,7 +15,8 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     let event = walk.advance(method, sampler, &mut vertex, watch);
     sample.radiance = walk.emission(method, event, &vertex, watch);
     let Event::Surface = event else { return sample };
-    let interface = walk.interface(method, &vertex, sampler);
+    let interface = method.scene.media.interface(&walk.media, &vertex);
+    walk.choose_lane(method, &interface, sampler);
     let shading = walk.shade(method, sampler, &vertex, &interface, &mut scratch);
     watch.vertex(0, ray, &vertex, Some(&shading), walk.beta);
     first_surface(&mut sample, ray, &shading);

@@ -208,9 +208,15 @@ pub fn power_heuristic(a: f32, b: f32) -> f32 {
 }
 
 /// Le that the ray's end sends back, weighted for how the ray was drawn; with the light it belongs to.
+#[inline(always)]
 fn emitted(method: &Method, vertex: &Vertex, drawn: Drawn) -> Spectrum {
+    vertex.light.map_or(Spectrum::ZERO, |light| emitted_by(method, light, vertex, drawn))
+}
+
+/// [`emitted`] by this light.
+#[inline(never)]
+fn emitted_by(method: &Method, light: u32, vertex: &Vertex, drawn: Drawn) -> Spectrum {
     let scene = method.scene;
-    let Some(light) = vertex.light else { return Spectrum::ZERO };
     let le = scene.emission(vertex);
     if le.is_black() {
         return Spectrum::ZERO;

@@ -20,7 +20,8 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
         sample.radiance += walk.emission(method, event, &vertex, watch);
         let Event::Surface = event else { break };
 
-        let interface = walk.interface(method, &vertex, sampler);
+        let interface = method.scene.media.interface(&walk.media, &vertex);
+        walk.choose_lane(method, &interface, sampler);
         let shading = walk.shade(method, sampler, &vertex, &interface, &mut scratch);
         watch.vertex(walk.depth, &walk.ray, &vertex, Some(&shading), walk.beta);
         if walk.depth == 0 {

@@ -17,7 +17,7 @@ pub fn estimate<O: Observer>(method: &Method, ray: &Ray, sampler: &mut Sampler, 
     if event == Event::Surface {
         let interface = method.scene.media.interface(&walk.media, &vertex);
         // The first surface as the second lane sees it: nothing scatters, and no lane is chosen.
-        let shading = method.scene.shade(&vertex, &interface, Some(1), &mut scratch);
+        let shading = method.scene.shade(&vertex, &interface, Some(1), || [0.5; 2], &mut scratch);
         watch.vertex(0, ray, &vertex, Some(&shading), walk.beta);
         first_surface(&mut sample, ray, &shading);
     }

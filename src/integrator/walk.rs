@@ -136,17 +136,15 @@ impl Walk {
         light
     }
 
-    /// The media on both sides of the vertex. A path that meets its first dispersive interface goes on with one lane alone.
+    /// A path that meets its first dispersive interface goes on with one lane alone.
     #[inline(always)]
-    pub fn interface(&mut self, method: &Method, vertex: &Vertex, sampler: &mut Sampler) -> MediumInterface {
-        let interface = method.scene.media.interface(&self.media, vertex);
-        if self.lane.is_none() && method.scene.media.disperses(&interface) {
+    pub fn choose_lane(&mut self, method: &Method, interface: &MediumInterface, sampler: &mut Sampler) {
+        if self.lane.is_none() && method.scene.media.disperses(interface) {
             self.seek(sampler, LANE);
             let (lane, factor) = medium::choose_lane(self.beta, sampler.next_1d());
             self.lane = Some(lane);
             self.beta *= factor;
         }
-        interface
     }
 
     /// The BSDF at the vertex, between the media of `interface`; `scratch` holds lobes that vary over the surface.
@@ -159,12 +157,11 @@ impl Walk {
         interface: &'a MediumInterface,
         scratch: &'a mut Scratch,
     ) -> Shading<'a> {
-        let mut shading = method.scene.shade(vertex, interface, self.lane, scratch);
-        if shading.is_bent() {
+        let leak = || {
             self.seek(sampler, LEAK);
-            shading.leak = sampler.next_2d();
-        }
-        shading
+            sampler.next_2d()
+        };
+        method.scene.shade(vertex, interface, self.lane, leak, scratch)
     }
 
     /// Goes on as `next` was drawn at the vertex of `shading`.

@@ -74,7 +74,7 @@ impl Lights {
 
     /// The light that [`sample`](Self::sample) asks for these numbers, and its probability; `None` where no light reaches
     /// the receiver.
-    #[inline]
+    #[inline(always)]
     pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         self.choice.choose(receiver, uc, u)
     }

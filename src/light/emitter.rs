@@ -64,8 +64,17 @@ impl Emitter {
     }
 
     /// Coverage × Lₑ: the mean over the two cases that the surface is there and that it is not.
-    #[inline]
+    #[inline(always)]
     pub fn mean_le(&self, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
+        if self.alpha.is_none() && self.coat.is_none() && self.texture.is_none() && !self.vertex_color {
+            return if self.emits(cos > 0.0) { self.factor } else { Spectrum::ZERO };
+        }
+        self.mean_le_here(uv, color, cos, textures)
+    }
+
+    /// [`Self::mean_le`] where it is not the same everywhere.
+    #[inline(never)]
+    fn mean_le_here(&self, uv: &[Vec2; 2], color: Vec4, cos: f32, textures: &Textures) -> Spectrum {
         let le = self.le(uv, color, cos, textures);
         match &self.alpha {
             None => le,

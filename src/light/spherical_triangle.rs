@@ -72,9 +72,9 @@ impl SphericalTriangle {
     }
 }
 
-/// Unit vector on the arc from `x` towards `y`, at the angle from `x` whose cosine is `cos`.
+/// Unit vector, to rounding, on the arc from `x` towards `y`, at the angle from `x` whose cosine is `cos`.
 #[inline]
 fn towards(x: DVec3, y: DVec3, cos: f64) -> DVec3 {
     let side = (y - x * y.dot(x)).normalize_or_zero();
-    (x * cos + side * (1.0 - cos * cos).max(0.0).sqrt()).normalize()
+    x * cos + side * (1.0 - cos * cos).max(0.0).sqrt()
 }

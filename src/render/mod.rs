@@ -285,12 +285,13 @@ impl<'a> Tracer<'a> {
         for (x, y) in positions(area) {
             let i = (y - y0) as usize * (x1 - x0) as usize + (x - x0) as usize;
             let Some(replicate) = plan.replicate(i).map(u64::from) else { continue };
+            let mut pixel = tile.sums.pixel([x, y]);
             for index in replicate * length..(replicate + 1) * length {
                 let mut watch = O::default();
                 let sample = self.sample([x, y], index, &mut watch);
                 let (rays, classes) = seen(&watch);
                 tile.rays += rays;
-                if let Some(invalid) = tile.sums.add([x, y], &sample, classes) {
+                if let Some(invalid) = pixel.add(&sample, classes) {
                     tile.bad.push(BadSample { pixel: [x, y], index, invalid });
                 }
             }

@@ -258,7 +258,7 @@ mod tests {
         let mut sums = Replicate::new(&Layers::held(false), [x, 0, x + 1, 1]);
         if job.plan.replicate(job.tile).is_some() {
             let radiance = Spectrum::splat(radiance(job.round, job.tile));
-            sums.add([x, 0], &PixelSample { radiance, ..PixelSample::default() }, &NO_CLASS);
+            sums.pixel([x, 0]).add(&PixelSample { radiance, ..PixelSample::default() }, &NO_CLASS);
         }
         if let Some(splats) = &job.plan.splats {
             let other = Vec2::new(1.5 - x as f32, 0.5);

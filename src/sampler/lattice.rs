@@ -23,6 +23,9 @@ use super::unit_24;
 /// Most points of a lattice, as a power of two; greater replicates consist of several.
 const MOST: u32 = 16;
 
+/// The bits of a number.
+const MASK: u32 = (1 << 24) - 1;
+
 /// Of the lattices of 2^k points: the generator g whose lattice has the longest shortest vector.
 static GENERATORS: [u32; MOST as usize + 1] = [1, 1, 1, 3, 3, 7, 19, 23, 71, 67, 271, 47, 671, 1307, 1435, 6961, 23679];
 
@@ -33,6 +36,10 @@ pub struct Lattice {
     reversed_index: u32,
     /// k.
     log2: u32,
+    /// 24 − k: numbers are multiples of 2⁻²⁴, and have so many bits for their place in a cell.
+    shift: u32,
+    /// Those bits.
+    within: u32,
     /// g.
     generator: u32,
     dimension: u32,
@@ -50,6 +57,8 @@ impl Lattice {
         Self {
             reversed_index: owen_start(within.reverse_bits()),
             log2,
+            shift: 24 - log2,
+            within: (1 << (24 - log2)) - 1,
             generator: GENERATORS[log2 as usize],
             dimension: 0,
             key: pixel_hash(seed, pixel, index >> log2),
@@ -90,12 +99,10 @@ impl Lattice {
         (j, own ^ (own >> 32), (h >> 32) as u32)
     }
 
-    /// The number in this cell (modulo n) at the 24 bits 8 … 31 of `jitter`.
+    /// The number in this cell (modulo n) at the lower bits of `jitter`.
     #[inline]
     fn place(&self, cell: u32, jitter: u64) -> f32 {
-        let k = self.log2;
-        let cell = cell & ((1 << k) - 1);
-        unit_24(cell << (24 - k) | (jitter as u32 >> 8 >> k))
+        unit_24((cell << self.shift & MASK) | (jitter as u32 & self.within))
     }
 
     /// Goes to `dimension`.

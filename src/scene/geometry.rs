@@ -103,14 +103,15 @@ impl Geometry {
     /// Nearest hit in (0, `ray.t_max`).
     #[inline(always)]
     pub fn nearest(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
-        let nearest = self.world.nearest(ray, leaving.of(WORLD));
-        let nearest = nearest.map(|TriangleHit { t, u, v, slot, .. }| {
+        let of_world = |TriangleHit { t, u, v, slot, .. }| {
             let primitive = Departure { object: WORLD, slot };
             Hit { t, u, v, primitive }
-        });
+        };
+        let nearest = self.world.nearest(ray, leaving.of(WORLD));
         if self.objects.is_empty() {
-            return nearest;
+            return nearest.map(of_world);
         }
+        let nearest = nearest.map(of_world);
         let t_max = nearest.map_or(ray.t_max, |hit| hit.t);
         self.nearest_object(ray, t_max, leaving).or(nearest)
     }

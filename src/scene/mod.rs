@@ -158,7 +158,7 @@ impl Scene {
 
     /// How much of what light number `index` sends arrives at `vertex`, on its side where the media are `media`: nothing
     /// or all, or between where the way leads through holes and at most `most_sheets` smooth thin sheets, which do not bend it.
-    #[inline]
+    #[inline(always)]
     pub fn visibility(
         &self,
         vertex: &Vertex,
@@ -226,22 +226,24 @@ impl Scene {
         }
         let mut scratch = Scratch::new();
         let interface = MediumInterface::VACUUM;
-        let shading = self.shade(vertex, &interface, None, &mut scratch);
+        let shading = self.shade(vertex, &interface, None, || [0.5; 2], &mut scratch);
         shading.bsdf.bsdf().straight(shading.wo)
     }
 
     /// Frame, lobes and local `wo` at a vertex between the media of `interface`, of `lane` where the path has chosen
-    /// one; `scratch` holds lobes that vary over the surface.
+    /// one; `leak` gives the numbers of [`Shading::leak`] where the normal is bent, `scratch` holds lobes that vary over the surface.
     #[inline(always)]
     pub fn shade<'a>(
         &'a self,
         vertex: &'a Vertex,
         interface: &'a MediumInterface,
         lane: Option<usize>,
+        leak: impl FnOnce() -> [f32; 2],
         scratch: &'a mut Scratch,
     ) -> Shading<'a> {
         let eta = self.media.eta(interface, lane);
-        Shading::between(&self.materials[vertex.material as usize], vertex, &self.textures, interface, eta, scratch)
+        let material = &self.materials[vertex.material as usize];
+        Shading::between(material, vertex, &self.textures, interface, eta, leak, scratch)
     }
 
     /// Le towards where the ray came from.

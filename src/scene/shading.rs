@@ -65,11 +65,11 @@ impl<'a> Shading<'a> {
     #[inline]
     pub fn new(material: &'a Material, vertex: &'a Vertex, textures: &Textures, scratch: &'a mut Scratch) -> Self {
         static VACUUM: MediumInterface = MediumInterface::VACUUM;
-        Self::between(material, vertex, textures, &VACUUM, None, scratch)
+        Self::between(material, vertex, textures, &VACUUM, None, || [0.5; 2], scratch)
     }
 
     /// Evaluates the material between the media of `interface`, where the index behind the surface over the one before it is
-    /// `eta`; `None`: the material's own.
+    /// `eta`; `None`: the material's own. `leak` gives the numbers of [`Self::leak`], where the normal is bent.
     #[inline(always)]
     pub fn between(
         material: &'a Material,
@@ -77,6 +77,7 @@ impl<'a> Shading<'a> {
         textures: &Textures,
         interface: &'a MediumInterface,
         eta: Option<f32>,
+        leak: impl FnOnce() -> [f32; 2],
         scratch: &'a mut Scratch,
     ) -> Self {
         /// 1 − cos of an angle that is rounding.
@@ -87,8 +88,8 @@ impl<'a> Shading<'a> {
         let wo = seen(frame.to_local(vertex.wo), vertex.front);
         let bsdf = material.bsdf_between(s, wo, textures, eta, scratch);
         let cos_bend = ns.dot(s.ng);
-        let cos_bend = if 1.0 - cos_bend > ROUNDING { cos_bend } else { 1.0 };
-        Self { vertex, interface, frame, wo, bsdf, cos_bend, leak: [0.5; 2] }
+        let (cos_bend, leak) = if 1.0 - cos_bend > ROUNDING { (cos_bend, leak()) } else { (1.0, [0.5; 2]) };
+        Self { vertex, interface, frame, wo, bsdf, cos_bend, leak }
     }
 
     /// f |cos θi| and density towards the world direction `wi`.
@@ -107,7 +108,7 @@ impl<'a> Shading<'a> {
     /// Draws a direction: `choice` picks the lobe, `u` the direction in it.
     #[inline(always)]
     pub fn sample(&self, choice: f32, u: [f32; 2]) -> Option<DirectionSample> {
-        self.leave(self.bsdf.sample(choice, u, Transport::Radiance)?)
+        self.bsdf.sample_and(choice, u, Transport::Radiance, |draw| self.leave(draw))
     }
 
     /// Draws from the delta lobes alone, with the probability that [`Self::sample`] has.
@@ -155,13 +156,9 @@ impl<'a> Shading<'a> {
     /// Who asks for light here: the half-space above the surface on the side of `wo`, or both where something is transmitted.
     #[inline]
     pub fn receiver(&self) -> Receiver {
-        let n = if self.is_bent() { self.vertex.surface.ng } else { self.frame.n };
-        let facing = match (self.bsdf.transmits(), self.wo.z < 0.0) {
-            (true, _) => Facing::Both(n),
-            (false, true) => Facing::Half(-n),
-            (false, false) => Facing::Half(n),
-        };
-        Receiver { p: self.vertex.surface.p, facing }
+        let (p, n) = (self.vertex.surface.p, self.vertex.surface.ng);
+        let n = if self.vertex.front { n } else { -n };
+        Receiver { p, facing: if self.bsdf.transmits() { Facing::Both(n) } else { Facing::Half(n) } }
     }
 
     /// The shading normal differs from the geometric one by more than rounding.

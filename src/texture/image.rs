@@ -9,8 +9,9 @@ use std::sync::{Arc, LazyLock};
 #[derive(Clone, Debug)]
 pub(super) struct ImageTexture {
     image: Arc<Image>,
-    /// Code → linear RGB, as long as a channel has codes.
-    decode: &'static [f32],
+    /// Code → linear, of RGB and of alpha, as long as a channel has codes.
+    rgb: &'static [f32],
+    alpha: &'static [f32],
     wrap: [Wrap; 2],
     nearest: bool,
 }
@@ -37,30 +38,47 @@ impl ImageTexture {
     }
 
     pub(super) fn new(image: Arc<Image>, srgb: bool, wrap: [Wrap; 2], nearest: bool) -> Self {
-        let decode = match image.pixels {
-            Pixels::Rgba8(_) | Pixels::Rgba32F(_) => &DECODE_8[srgb as usize],
-            Pixels::Rgba16(_) => &DECODE_16[srgb as usize],
+        let curves = match image.pixels {
+            Pixels::Rgba8(_) | Pixels::Rgba32F(_) => &DECODE_8,
+            Pixels::Rgba16(_) => &DECODE_16,
         };
-        Self { image, decode, wrap, nearest }
+        Self { image, rgb: &curves[srgb as usize], alpha: &curves[0], wrap, nearest }
     }
 
     /// Linear RGBA at finite coordinates.
     #[inline]
     pub(super) fn at(&self, uv: Vec2) -> Vec4 {
+        match &self.image.pixels {
+            Pixels::Rgba8(pixels) => self.filtered(pixels, uv, |codes| self.decoded(codes)),
+            Pixels::Rgba16(pixels) => self.filtered(pixels, uv, |codes| self.decoded(codes)),
+            Pixels::Rgba32F(pixels) => self.filtered(pixels, uv, Vec4::from),
+        }
+    }
+
+    /// Linear RGBA of codes.
+    #[inline(always)]
+    fn decoded(&self, [r, g, b, a]: [impl Into<usize>; 4]) -> Vec4 {
+        Vec4::new(self.rgb[r.into()], self.rgb[g.into()], self.rgb[b.into()], self.alpha[a.into()])
+    }
+
+    /// Bilinear or constant between these `pixels`.
+    #[inline(always)]
+    fn filtered<P: Copy>(&self, pixels: &[P], uv: Vec2, linear: impl Fn(P) -> Vec4) -> Vec4 {
         let [width, height] = self.image.size.map(|n| n as i32);
+        let texel = |x: usize, y: usize| linear(pixels[y * width as usize + x]);
         let x = into_period(uv.x, self.wrap[0]) * width as f32;
         let y = into_period(uv.y, self.wrap[1]) * height as f32;
         if self.nearest {
-            return self.texel(wrap(x as i32, width, self.wrap[0]), wrap(y as i32, height, self.wrap[1]));
+            return texel(wrap(x as i32, width, self.wrap[0]), wrap(y as i32, height, self.wrap[1]));
         }
 
         // The four texels whose centres surround the point.
         let (x, y) = (x - 0.5, y - 0.5);
-        let (x0, y0) = (x.floor(), y.floor());
-        let (s, t) = (x - x0, y - y0);
-        let columns = [0, 1].map(|i| wrap(x0 as i32 + i, width, self.wrap[0]));
-        let rows = [0, 1].map(|i| wrap(y0 as i32 + i, height, self.wrap[1]));
-        let row = |y| self.texel(columns[0], y).lerp(self.texel(columns[1], y), s);
+        let [x0, y0] = [x, y].map(floor);
+        let (s, t) = (x - x0 as f32, y - y0 as f32);
+        let columns = [0, 1].map(|i| wrap(x0 + i, width, self.wrap[0]));
+        let rows = [0, 1].map(|i| wrap(y0 + i, height, self.wrap[1]));
+        let row = |y| texel(columns[0], y).lerp(texel(columns[1], y), s);
         row(rows[0]).lerp(row(rows[1]), t)
     }
 
@@ -72,20 +90,12 @@ impl ImageTexture {
         (sum / (width * height) as f64).as_vec4()
     }
 
-    #[inline]
+    /// Linear RGBA of one texel.
     fn texel(&self, x: usize, y: usize) -> Vec4 {
         let i = y * self.image.size[0] as usize + x;
         match &self.image.pixels {
-            Pixels::Rgba8(pixels) => {
-                let [r, g, b, a] = pixels[i];
-                let d = |code: u8| self.decode[code as usize];
-                Vec4::new(d(r), d(g), d(b), a as f32 / 255.0)
-            }
-            Pixels::Rgba16(pixels) => {
-                let [r, g, b, a] = pixels[i];
-                let d = |code: u16| self.decode[code as usize];
-                Vec4::new(d(r), d(g), d(b), a as f32 / 65_535.0)
-            }
+            Pixels::Rgba8(pixels) => self.decoded(pixels[i]),
+            Pixels::Rgba16(pixels) => self.decoded(pixels[i]),
             Pixels::Rgba32F(pixels) => Vec4::from(pixels[i]),
         }
     }
@@ -96,10 +106,24 @@ impl ImageTexture {
 #[inline]
 fn into_period(u: f32, mode: Wrap) -> f32 {
     match mode {
-        Wrap::Repeat => u - u.floor(),
-        Wrap::Mirror => u - 2.0 * (0.5 * u).floor(),
+        Wrap::Repeat => u - floor_of_any(u),
+        Wrap::Mirror => u - 2.0 * floor_of_any(0.5 * u),
         Wrap::Clamp => u.clamp(0.0, 1.0),
     }
+}
+
+/// The greatest integer not above `x`, which an i32 can say. By a cast: `f32::floor` is a call where there is no SSE 4.1.
+#[inline(always)]
+fn floor(x: f32) -> i32 {
+    let whole = x as i32;
+    whole - i32::from(whole as f32 > x)
+}
+
+/// The greatest integer not above any finite `x`.
+#[inline(always)]
+fn floor_of_any(x: f32) -> f32 {
+    // From 2²³ on all are whole.
+    if x.abs() < 8_388_608.0 { floor(x) as f32 } else { x }
 }
 
 /// Texel index of a coordinate brought [`into_period`], which may lie one outside it, to [0, n).

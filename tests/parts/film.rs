@@ -39,7 +39,7 @@ fn add(sums: &mut Replicate, pixel: [u32; 2], rng: &mut Pcg64Mcg) {
     let sample = sample(rng);
     let mut classes = NO_CLASS;
     classes[rng.random_range(0..7)] = sample.radiance;
-    assert_eq!(sums.add(pixel, &sample, &classes), None);
+    assert_eq!(sums.pixel(pixel).add(&sample, &classes), None);
 }
 
 fn random_film(size: [u32; 2], crop: [u32; 4], replicates: u32, length: u32, transport: bool, seed: u128) -> Film {
@@ -63,7 +63,7 @@ fn stderr_is_that_of_replicate_means() {
     for _ in 0..5 {
         let mut sums = Replicate::new(film.layers(), [2, 1, 3, 2]);
         let samples: Vec<PixelSample> = (0..8).map(|_| sample(&mut rng)).collect();
-        samples.iter().for_each(|s| assert_eq!(sums.add([2, 1], s, &NO_CLASS), None));
+        samples.iter().for_each(|s| assert_eq!(sums.pixel([2, 1]).add(s, &NO_CLASS), None));
         means.push(samples.iter().map(|s| f64::from(s.radiance.to_rgb()[1])).sum::<f64>() / 8.0);
         film.add(&sums);
     }
@@ -133,8 +133,8 @@ fn what_is_no_number_counts_as_nothing_and_is_named() {
             let mut film = Film::new([1, 1], [0, 0, 1, 1], &Layers::held(true));
             let mut sums = Replicate::new(film.layers(), film.crop());
             let classes = [Spectrum::splat(2.0 / 7.0); 7];
-            assert_eq!(sums.add(pixel, &sound, &classes), None);
-            let Invalid { layer, value } = sums.add(pixel, &bad, &classes).unwrap();
+            assert_eq!(sums.pixel(pixel).add(&sound, &classes), None);
+            let Invalid { layer, value } = sums.pixel(pixel).add(&bad, &classes).unwrap();
             assert_eq!(layer, name);
             assert!(value.iter().any(|v| v.to_bits() == x.to_bits()), "{value:?}");
             film.add(&sums);
@@ -151,8 +151,8 @@ fn what_is_no_number_counts_as_nothing_and_is_named() {
     // Radiance and distance are not negative; normals may be.
     let mut sums = Replicate::new(&Layers::held(false), [0, 0, 1, 1]);
     let negative = PixelSample { radiance: Spectrum::from_rgb([0.0, -1e-9, 0.0]), ..sound };
-    assert!(sums.add(pixel, &negative, &NO_CLASS).is_some());
-    assert!(sums.add(pixel, &PixelSample { depth: -1.0, ..sound }, &NO_CLASS).is_some());
+    assert!(sums.pixel(pixel).add(&negative, &NO_CLASS).is_some());
+    assert!(sums.pixel(pixel).add(&PixelSample { depth: -1.0, ..sound }, &NO_CLASS).is_some());
 }
 
 #[test]
@@ -246,7 +246,7 @@ fn splats_are_the_same_bits_in_any_order() {
             let mut film = film.clone();
             let mut sums = Replicate::new(film.layers(), crop);
             for pixel in film.pixels() {
-                sums.add(pixel, &PixelSample { radiance: Spectrum::ONE, ..PixelSample::default() }, &NO_CLASS);
+                sums.pixel(pixel).add(&PixelSample { radiance: Spectrum::ONE, ..PixelSample::default() }, &NO_CLASS);
             }
             sums.add_splats(splats);
             film.add(&sums);
@@ -279,7 +279,7 @@ fn a_splat_reaches_the_pixels_whose_filter_reaches_it() {
         let splats = Splats::new(&film);
         assert_eq!(splats.add(filter, at.into(), Spectrum::ONE, &NO_CLASS), None);
         let mut sums = Replicate::new(film.layers(), film.crop());
-        film.pixels().for_each(|pixel| assert_eq!(sums.add(pixel, &PixelSample::default(), &NO_CLASS), None));
+        film.pixels().for_each(|pixel| assert_eq!(sums.pixel(pixel).add(&PixelSample::default(), &NO_CLASS), None));
         sums.add_splats(&splats);
         let mut film = film.clone();
         film.add(&sums);

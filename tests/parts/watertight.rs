@@ -84,7 +84,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
             let met = scene.intersect_from(&ray, leaving, &mut MediumStack::default(), &mut || 0.5);
             let vertex = met.unwrap_or_else(|| panic!("path {i} got out at bounce {bounce}: {ray:?}"));
             let interface = MediumInterface::default();
-            let shading = scene.shade(&vertex, &interface, None, &mut scratch);
+            let shading = scene.shade(&vertex, &interface, None, || [0.5; 2], &mut scratch);
             let wi = warp::cosine_hemisphere(u.next_2d());
             let wi = if shading.wo.z < 0.0 { -wi } else { wi };
             ray = shading.ray(shading.frame.to_world(wi).normalize());

@@ -71,8 +71,8 @@ pub(super) struct Shear {
     pub(super) axes: [usize; 3],
     /// Shear that maps the direction to the third axis, and the factor of negated coordinates along that axis.
     pub(super) shear: [f32; 3],
-    /// The triangle that the ray leaves, and the one that it leads to.
-    pub(super) excluded: [Excluded; 2],
+    /// The triangle that the ray leaves.
+    pub(super) excluded: Excluded,
 }
 
 /// A triangle that a ray does not meet: the leaf that holds it, and the lanes of the others there, a bit each.
@@ -84,16 +84,22 @@ pub(super) struct Excluded {
 
 impl Excluded {
     #[inline(always)]
-    fn new(slot: TriangleRef) -> Self {
+    pub(super) fn new(slot: TriangleRef) -> Self {
         let (leaf, lane) = slot.place();
         Self { leaf: leaf as u32, others: !(1 << lane) }
+    }
+
+    /// Lanes of a leaf that the ray may meet.
+    #[inline(always)]
+    pub(super) fn of(self, leaf: u32) -> u32 {
+        if leaf == self.leaf { self.others } else { !0 }
     }
 }
 
 impl Shear {
-    /// Of a ray that does not meet the triangles at these slots.
+    /// Of a ray that does not meet this triangle.
     #[inline(always)]
-    pub(super) fn new(ray: &Ray, excluded: [TriangleRef; 2]) -> Self {
+    pub(super) fn new(ray: &Ray, excluded: TriangleRef) -> Self {
         // By look-ups: branches on random directions would be guessed wrong.
         let (size, negative) = (ray.d.abs(), ray.d.is_negative_bitmask() as usize);
         let longest = size.cmpeq(size.zxy().max(size).max(size.yzx())).bitmask() as usize;
@@ -101,11 +107,7 @@ impl Shear {
         let [kx, ky, kz] = [0, 1, 2].map(|i| axes[i].min(2) as usize);
         let d: &[f32; 3] = ray.d.as_ref();
         let d_inv = 1.0 / d[kz];
-        Self {
-            axes: [kx, ky, kz],
-            shear: [d[kx] * d_inv, d[ky] * d_inv, -d_inv],
-            excluded: [Excluded::new(excluded[0]), Excluded::new(excluded[1])],
-        }
+        Self { axes: [kx, ky, kz], shear: [d[kx] * d_inv, d[ky] * d_inv, -d_inv], excluded: Excluded::new(excluded) }
     }
 }
 

@@ -3,7 +3,7 @@
 /// `nearest` and `obstacle` for the `Lanes` in scope.
 macro_rules! kernels {
     ($(#[$isa:meta])?) => {
-        use super::ray::{Shear, Slabs, plane_ahead};
+        use super::ray::{Excluded, Shear, Slabs, plane_ahead};
         use super::{Entry, Found, Obstacle, ShadowRay, Stack};
         use crate::bvh::node::{LEAF, Node, TriangleLeaf, WIDTH};
         use crate::bvh::triangles::TriangleRef;
@@ -71,11 +71,7 @@ macro_rules! kernels {
             t_max: f32,
         ) -> (u32, [Lanes; 4]) {
             let leaf = &leaves[index as usize];
-            let [left, sought] = shear.excluded;
-            let mut others = if index == left.leaf { left.others } else { !0 };
-            if !NEAREST && index == sought.leaf {
-                others &= sought.others;
-            }
+            let others = shear.excluded.of(index);
             let o: &[f32; 3] = ray.o.as_ref();
             let [kx, ky, kz] = shear.axes.map(|axis| axis.min(2));
             let [sx, sy, sz] = shear.shear;
@@ -180,7 +176,7 @@ macro_rules! kernels {
             excluded: TriangleRef,
             hit: &mut Found,
         ) -> bool {
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, [excluded, TriangleRef::NONE]));
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, excluded));
             let (mut stack, mut size) = (Stack::new(), 0);
             let mut t_max = ray.t_max;
             let mut found = false;
@@ -270,13 +266,18 @@ macro_rules! kernels {
         $(#[$isa])?
         pub(super) fn obstacle(nodes: &[Node], leaves: &[TriangleLeaf], shadow: &ShadowRay) -> Obstacle {
             let ray = shadow.ray;
-            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, shadow.excluded));
+            let [left, sought] = shadow.excluded;
+            let (slabs, shear) = (&Slabs::new(ray), &Shear::new(ray, left));
             let (mut stack, mut size) = (Stack::new(), 0);
             let t_max = ray.t_max;
             let (mut child, mut met) = (0, Obstacle::None);
             loop {
                 if child & LEAF != 0 {
-                    let hits = triangles::<false>(leaves, child & !LEAF, ray, shear, t_max).0;
+                    let mut hits = triangles::<false>(leaves, child & !LEAF, ray, shear, t_max).0;
+                    // Rays meet the triangle that they lead to more seldom than leaves.
+                    if hits != 0 {
+                        hits &= Excluded::new(sought).of(child & !LEAF);
+                    }
                     if hits != 0 {
                         let passages = shadow.passages.get((child & !LEAF) as usize).copied().unwrap_or_default();
                         if hits & !shadow.passing.lanes(passages) != 0 {

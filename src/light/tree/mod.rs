@@ -35,7 +35,7 @@ impl LightTree {
     /// Bound on what the receiver gets from all lights together: intensity/d², scaled.
     #[inline]
     pub fn importance(&self, receiver: &Receiver) -> f32 {
-        self.nodes[0].importance(receiver)
+        Node::importances([&self.nodes[0]; 2], receiver)[0]
     }
 
     /// Chooses a light at `u` in \[0, 1), with its probability; `None` where the way ends at nodes that send nothing.
@@ -78,7 +78,7 @@ impl LightTree {
     #[inline]
     fn first(&self, node: &Node, receiver: &Receiver) -> Option<f32> {
         let children = &self.nodes[node.next as usize..][..2];
-        let [a, b] = [0, 1].map(|i| children[i].importance(receiver));
+        let [a, b] = Node::importances([&children[0], &children[1]], receiver);
         let sum = a + b;
         (sum > 0.0).then(|| a / sum)
     }

@@ -85,7 +85,7 @@ fn fed(size: [u32; 2], replicates: u32, samples: u32, seed: u64) -> Film {
                     let radiance = Spectrum::splat(u.next_1d());
                     let mut classes = [Spectrum::ZERO; 7];
                     classes[0] = radiance * 0.5;
-                    sums.add([x, y], &PixelSample { radiance, ..PixelSample::default() }, &classes);
+                    sums.pixel([x, y]).add(&PixelSample { radiance, ..PixelSample::default() }, &classes);
                 }
                 halves[(k % 2) as usize].add(&sums);
             }

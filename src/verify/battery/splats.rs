@@ -77,7 +77,7 @@ fn check(camera: &Camera, lens: Option<Lens>, filter: Filter, trial: &Trial, fou
         let mut sums = Replicate::new(&layers, CROP);
         let own = PixelSample { radiance: Spectrum::splat(OWN), ..PixelSample::default() };
         for pixel in film.pixels() {
-            invalid += usize::from(sums.add(pixel, &own, &NO_CLASS).is_some());
+            invalid += usize::from(sums.pixel(pixel).add(&own, &NO_CLASS).is_some());
         }
         sums.add_splats(&splats);
         let mut one = Film::new(SIZE, CROP, &layers);
