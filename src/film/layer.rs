@@ -3,7 +3,8 @@
 //! All that knows of layers follows this list: what is added to a pixel and how it is averaged, `--layers` and its help, the names
 //! of channels in files. A new layer is an entry here, and a row in the README's table.
 
-use super::{Image, PixelSample};
+use super::Image;
+use super::sample::SampleSums;
 use crate::spectrum::Spectrum;
 
 /// Names of the transport classes, by the last two reflections before the eye. SD: specular, then diffuse, then the eye:
@@ -13,8 +14,8 @@ pub const CLASSES: [&str; 7] = ["emission", "D", "S", "DD", "SD", "DS", "SS"];
 /// Radiance of one sample by transport class, in the order of [`CLASSES`].
 pub type ByClass = [Spectrum; CLASSES.len()];
 
-/// What one sample gives to a layer.
-pub(super) type Of = fn(&PixelSample, &ByClass) -> [f32; 3];
+/// What of the samples' sums a layer keeps.
+pub(super) type Of = fn(&SampleSums) -> [f64; 3];
 
 /// How the samples of a pixel become its value.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,7 +44,7 @@ pub struct Layer {
     pub kind: Kind,
     /// Whether values may be negative.
     pub signed: bool,
-    /// What one sample gives to it; channels beyond its own are ignored.
+    /// What of the samples' sums it keeps; channels beyond its own are ignored.
     pub(super) of: Of,
 }
 
@@ -109,7 +110,7 @@ pub static GROUPS: [Group; 7] = [
                 channels: RGB,
                 kind: Kind::Estimate,
                 signed: false,
-                of: |sample, _| sample.radiance.to_rgb(),
+                of: |sums| sums.radiance,
             },
             Layer {
                 name: "alpha",
@@ -117,7 +118,7 @@ pub static GROUPS: [Group; 7] = [
                 channels: &["A"],
                 kind: Kind::Mean,
                 signed: false,
-                of: |sample, _| [sample.alpha; 3],
+                of: |sums| [sums.alpha; 3],
             },
         ],
     },
@@ -137,7 +138,7 @@ pub static GROUPS: [Group; 7] = [
             channels: RGB,
             kind: Kind::Mean,
             signed: false,
-            of: |sample, _| sample.albedo.to_rgb(),
+            of: |sums| sums.albedo,
         }],
     },
     Group {
@@ -150,7 +151,7 @@ pub static GROUPS: [Group; 7] = [
             channels: &["X", "Y", "Z"],
             kind: Kind::MeanWhereMet,
             signed: true,
-            of: |sample, _| sample.normal.to_array(),
+            of: |sums| sums.normal,
         }],
     },
     Group {
@@ -163,7 +164,7 @@ pub static GROUPS: [Group; 7] = [
             channels: &["Z"],
             kind: Kind::MeanWhereMet,
             signed: false,
-            of: |sample, _| [sample.depth; 3],
+            of: |sums| [sums.depth; 3],
         }],
     },
     Group {
@@ -176,7 +177,7 @@ pub static GROUPS: [Group; 7] = [
             channels: &["N"],
             kind: Kind::Count,
             signed: false,
-            of: |_, _| [1.0; 3],
+            of: |_| [1.0; 3],
         }],
     },
     Group {
@@ -184,13 +185,13 @@ pub static GROUPS: [Group; 7] = [
         about: "radiance by the last two reflections before the eye: emission, D, S, DD, SD, DS, SS",
         always: false,
         layers: &[
-            class(0, |_, classes| classes[0].to_rgb()),
-            class(1, |_, classes| classes[1].to_rgb()),
-            class(2, |_, classes| classes[2].to_rgb()),
-            class(3, |_, classes| classes[3].to_rgb()),
-            class(4, |_, classes| classes[4].to_rgb()),
-            class(5, |_, classes| classes[5].to_rgb()),
-            class(6, |_, classes| classes[6].to_rgb()),
+            class(0, |sums| sums.classes[0]),
+            class(1, |sums| sums.classes[1]),
+            class(2, |sums| sums.classes[2]),
+            class(3, |sums| sums.classes[3]),
+            class(4, |sums| sums.classes[4]),
+            class(5, |sums| sums.classes[5]),
+            class(6, |sums| sums.classes[6]),
         ],
     },
 ];

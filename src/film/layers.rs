@@ -1,6 +1,7 @@
 //! The layers of a film: where their sums are, and which values they take.
 
-use super::layer::{GROUPS, Kind, Layer, Of, TRANSPORT};
+use super::layer::{CLASSES, GROUPS, Kind, Layer, TRANSPORT};
+use super::sample::SampleSums;
 use std::sync::Arc;
 
 /// A value of a sample that is not finite, or negative where nothing is.
@@ -12,23 +13,18 @@ pub struct Invalid {
     pub value: [f32; 3],
 }
 
-/// So many sums are added to at a time.
-pub(super) const LANES: usize = 4;
-
 /// The layers of a film, and their places in a pixel's sums.
 #[derive(Clone, Debug)]
 pub struct Layers {
     pub(super) slots: Arc<[Slot]>,
     /// Sums of a pixel.
     pub(super) sums: usize,
-    /// Those of a pixel of a replicate, where they are padded to whole [`LANES`].
-    pub(super) stride: usize,
     /// Sums of squares of a pixel.
     pub(super) squares: usize,
-    /// The least that a sample may give to each sum, padded too.
+    /// The least that a sample may give to each sum.
     pub(super) least: Arc<[f32]>,
-    /// The first sum of each layer that samples give something to, and what they give.
-    pub(super) fed: Arc<[(usize, Of)]>,
+    /// Whether one of them is a transport class.
+    pub(super) split: bool,
 }
 
 /// Place of one layer.
@@ -66,11 +62,8 @@ impl Layers {
             least.resize(sums, if layer.signed { f32::MIN } else { 0.0 });
             squares += if estimate { layer.channels.len() } else { 0 };
         }
-        let fed =
-            slots.iter().filter(|slot| slot.layer.kind != Kind::Count).map(|slot| (slot.sum, slot.layer.of)).collect();
-        let stride = sums.next_multiple_of(LANES);
-        least.resize(stride, f32::MIN);
-        Self { slots: slots.into(), sums, stride, squares, least: least.into(), fed }
+        let split = slots.iter().any(|slot| CLASSES.contains(&slot.layer.name));
+        Self { slots: slots.into(), sums, squares, least: least.into(), split }
     }
 
     /// What films keep: the layers that all of them do, and transport classes where they are asked for.
@@ -89,17 +82,32 @@ impl Layers {
         self.slots.iter().find(|slot| slot.layer.name == name)
     }
 
+    /// The sums of a pixel: what the layers keep of those of its samples.
+    pub(super) fn of(&self, samples: &SampleSums) -> Vec<f64> {
+        let mut sums = vec![0.0; self.sums];
+        self.add(samples, &mut sums);
+        sums
+    }
+
+    /// Adds to the sums of a pixel what the layers keep of those of some samples.
+    pub(super) fn add(&self, samples: &SampleSums, sums: &mut [f64]) {
+        for slot in self.slots.iter().filter(|slot| slot.layer.kind != Kind::Count) {
+            sums[slot.range()].iter_mut().zip((slot.layer.of)(samples)).for_each(|(sum, x)| *sum += x);
+        }
+    }
+
     /// Sets to 0 what is invalid in the values of a sample, and after an invalid estimate all estimates, and returns the first.
     #[cold]
-    pub(super) fn clear(&self, values: &mut [f32]) -> Option<Invalid> {
+    pub(super) fn clear(&self, values: &mut [f64]) -> Option<Invalid> {
         let mut first: Option<Invalid> = None;
         let mut lost = false;
         for slot in self.slots.iter().filter(|slot| slot.layer.kind != Kind::Count) {
             let (estimate, least) = (slot.layer.kind == Kind::Estimate, &self.least[slot.range()]);
             let values = &mut values[slot.range()];
-            let valid = values.iter().zip(least).all(|(x, least)| (*least..=f32::MAX).contains(x));
+            let valid =
+                values.iter().zip(least).all(|(x, least)| (f64::from(*least)..=f64::from(f32::MAX)).contains(x));
             if !valid {
-                let value = std::array::from_fn(|c| values.get(c).copied().unwrap_or_default());
+                let value = std::array::from_fn(|c| values.get(c).map_or(0.0, |x| *x as f32));
                 first = first.or(Some(Invalid { layer: slot.layer.name, value }));
                 lost |= estimate;
             }

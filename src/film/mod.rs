@@ -5,6 +5,7 @@
 //! | `layer.rs` | [`GROUPS`]: the list of all layers |
 //! | `layers.rs` | [`Layers`]: the layers of a film, their places, and which values they take |
 //! | `replicate.rs` | [`Replicate`]: sums of the pixels of an area over one replicate |
+//! | `sample.rs` | sums over samples, before layers select from them |
 //! | `splats.rs`, `exact.rs` | [`Splats`]: what paths bring to other pixels than their own, in exact sums |
 //! | `sums.rs` | [`Film`]: sums of all pixels over all replicates; mean and standard error |
 //! | `state.rs` | a film as bytes |
@@ -30,6 +31,7 @@ mod layer;
 mod layers;
 pub mod png;
 mod replicate;
+mod sample;
 mod splats;
 mod state;
 mod sums;

@@ -3,6 +3,7 @@
 use super::exact::ExactSum;
 use super::layer::{ByClass, RADIANCE};
 use super::replicate::index;
+use super::sample::SampleSums;
 use super::{Film, Invalid, Layers, PixelSample, filter_density, filter_radius};
 use crate::desc::Filter;
 use crate::spectrum::Spectrum;
@@ -42,10 +43,10 @@ impl Splats {
         }
         for (pixel, share) in pixels(filter, at, self.crop) {
             let sample = PixelSample { radiance: radiance * share, ..PixelSample::default() };
-            let classes = classes.map(|radiance| radiance * share);
+            let one = SampleSums::of(&sample, &classes.map(|radiance| radiance * share));
             let cell = &self.sums[index(self.crop, pixel) * self.layers.squares..][..self.layers.squares];
             for (slot, square) in self.layers.estimates() {
-                let value = (slot.layer.of)(&sample, &classes);
+                let value = (slot.layer.of)(&one).map(|x| x as f32);
                 if !value.iter().all(|x| x.is_finite() && (slot.layer.signed || *x >= 0.0)) {
                     return Some(Invalid { layer: slot.layer.name, value });
                 }
