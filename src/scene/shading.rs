@@ -122,7 +122,9 @@ impl<'a> Shading<'a> {
         let wi = renormalize(self.frame.to_world(draw.wi));
         let (cos, is_delta) = (wi.dot(self.vertex.surface.ng), matches!(draw.pdf, Pdf::Discrete(_)));
         if self.is_bent() && (is_delta || !self.is_unchanged(cos, draw.wi.z)) {
-            return self.leave_bent(&draw);
+            // A copy: the draw itself, whose address nobody has, stays in registers.
+            let Sample { wi, weight, specular, pdf, eta } = draw;
+            return self.leave_bent(&Sample { wi, weight, specular, pdf, eta });
         }
         let straight = self.is_straight(&draw) && self.bsdf.bsdf().straight(self.wo).is_some();
         (cos * draw.wi.z > 0.0).then(|| DirectionSample::new(wi, &draw, draw.pdf, straight))
