@@ -104,7 +104,8 @@ impl Film {
         let width = (x1 - x0).max(1) as usize;
         let Layers { sums: count, squares, .. } = self.layers;
         let estimates: Vec<_> = self.layers.estimates().map(|(slot, square)| (slot.range(), square)).collect();
-        for (j, new) in replicate.sums.chunks_exact(count.max(1)).enumerate().filter(|(j, _)| replicate.samples[*j] > 0) {
+        for (j, new) in replicate.sums.chunks_exact(count.max(1)).enumerate().filter(|(j, _)| replicate.samples[*j] > 0)
+        {
             let samples = replicate.samples[j];
             if self.replicate == 0 {
                 self.replicate = samples;
