@@ -44,7 +44,8 @@ fn the_battery_passes_and_has_the_power_that_it_claims() {
     for (row, detected) in power(&report) {
         println!("{row}: finds a bias of {:.3} %", 100.0 * detected);
         // Densities are judged by χ², which knows no relative bias; what estimates they have stand beside it.
-        if row.starts_with('D') {
+        // Random scenes are looked at coarsely, as many as there is time for: what is wrong where features meet is large.
+        if row.starts_with('D') || row == "X3" {
             continue;
         }
         let aim = if row.starts_with(['A', 'F']) { POWER_OF_ENERGY } else { POWER };

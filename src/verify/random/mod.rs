@@ -67,7 +67,7 @@ const FAILS: f64 = 1e-9;
 const SIDE: u32 = 16;
 
 /// Rays of an image of the battery's row: many scenes that are looked at coarsely meet more than few that are looked at well.
-const ROW_RAYS: u64 = 60_000;
+const ROW_RAYS: u64 = 30_000;
 
 /// Tasks of the battery's row.
 const ROW: u64 = 12;
