@@ -22,13 +22,13 @@ pub mod whitted;
 
 pub use classes::Classes;
 pub use solver::Solver;
-pub use strategy::Drawn;
+pub use strategy::SampledBy;
 pub use walk::{Event, Numbers, Walk};
 
 use crate::bsdf::Pdf;
 use crate::desc::{Integrator, Strategy};
 use crate::film::PixelSample;
-use crate::light::Receiver;
+use crate::light::LightSampleContext;
 use crate::math::Ray;
 use crate::sampler::Sampler;
 use crate::scene::{CosineEval, MediaAbout, Scene, Shading, Vertex};
@@ -74,7 +74,7 @@ pub trait Observer {
     /// The path left the scene.
     fn escaped(&mut self, _depth: u32, _ray: &Ray, _beta: Spectrum) {}
     /// A direction was drawn: with what density, and the throughput after it.
-    fn drawn(&mut self, _drawn: Drawn, _beta: Spectrum) {}
+    fn sampled(&mut self, _sampled_by: SampledBy, _beta: Spectrum) {}
 }
 
 impl Observer for () {}
@@ -186,12 +186,12 @@ pub fn direct_light<O: Observer>(
 
 /// Weight of light that a drawn direction met, where `light_pdf` is the density with which the light sampler would
 /// have drawn the same direction.
-fn weight_of_hit(strategy: Strategy, drawn: Drawn, light_pdf: impl FnOnce(&Receiver) -> f32) -> f32 {
-    match (drawn, strategy) {
-        (Drawn::Camera | Drawn::Delta, _) => 1.0,
+fn weight_of_hit(strategy: Strategy, sampled_by: SampledBy, light_pdf: impl FnOnce(&LightSampleContext) -> f32) -> f32 {
+    match (sampled_by, strategy) {
+        (SampledBy::Camera | SampledBy::Delta, _) => 1.0,
         (_, Strategy::Uniform | Strategy::Cosine | Strategy::Bsdf) => 1.0,
-        (Drawn::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(&from)),
-        (Drawn::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(&from) == 0.0),
+        (SampledBy::Smooth { pdf, from }, Strategy::Mis) => power_heuristic(pdf, light_pdf(&from)),
+        (SampledBy::Smooth { from, .. }, Strategy::Light) => f32::from(light_pdf(&from) == 0.0),
     }
 }
 
@@ -209,28 +209,28 @@ pub fn power_heuristic(a: f32, b: f32) -> f32 {
 
 /// Le that the ray's end sends back, weighted for how the ray was drawn; with the light it belongs to.
 #[inline(always)]
-fn emitted(method: &Method, vertex: &Vertex, drawn: Drawn) -> Spectrum {
-    vertex.light.map_or(Spectrum::ZERO, |light| emitted_by(method, light, vertex, drawn))
+fn emitted(method: &Method, vertex: &Vertex, sampled_by: SampledBy) -> Spectrum {
+    vertex.light.map_or(Spectrum::ZERO, |light| emitted_by(method, light, vertex, sampled_by))
 }
 
 /// [`emitted`] by this light.
 #[inline(never)]
-fn emitted_by(method: &Method, light: u32, vertex: &Vertex, drawn: Drawn) -> Spectrum {
+fn emitted_by(method: &Method, light: u32, vertex: &Vertex, sampled_by: SampledBy) -> Spectrum {
     let scene = method.scene;
     let le = scene.emission(vertex);
     if le.is_black() {
         return Spectrum::ZERO;
     }
     let s = &vertex.surface;
-    le * weight_of_hit(method.strategy, drawn, |from| scene.lights.pdf_hit(light, from, s.p, s.ng))
+    le * weight_of_hit(method.strategy, sampled_by, |from| scene.lights.pdf_hit(light, from, s.p, s.ng))
 }
 
 /// Light from infinity along a ray that met nothing.
-fn environment(method: &Method, ray: &Ray, drawn: Drawn) -> Spectrum {
+fn environment(method: &Method, ray: &Ray, sampled_by: SampledBy) -> Spectrum {
     let lights = &method.scene.lights;
-    let Drawn::Smooth { from, .. } = drawn else { return lights.environment_le(ray.d) };
+    let SampledBy::Smooth { from, .. } = sampled_by else { return lights.environment_le(ray.d) };
     let (le, pdf) = lights.environment_le_and_pdf(&from, ray.d);
-    le * weight_of_hit(method.strategy, drawn, |_| pdf)
+    le * weight_of_hit(method.strategy, sampled_by, |_| pdf)
 }
 
 /// Whether light that the light sampler finds is reflected.

@@ -1,6 +1,6 @@
 //! One path in words.
 
-use super::{Classes, Drawn, Observer};
+use super::{Classes, Observer, SampledBy};
 use crate::math::Ray;
 use crate::scene::{Shading, Vertex};
 use crate::spectrum::Spectrum;
@@ -63,7 +63,7 @@ impl Observer for Replay {
         ));
     }
 
-    fn drawn(&mut self, drawn: Drawn, beta: Spectrum) {
-        self.line(format_args!("    drawn {drawn:?}, beta {:?}", beta.to_rgb()));
+    fn sampled(&mut self, sampled_by: SampledBy, beta: Spectrum) {
+        self.line(format_args!("    drawn {sampled_by:?}, beta {:?}", beta.to_rgb()));
     }
 }

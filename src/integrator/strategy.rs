@@ -3,7 +3,7 @@
 use super::{Method, Numbers};
 use crate::bsdf::Pdf;
 use crate::desc::Strategy;
-use crate::light::Receiver;
+use crate::light::LightSampleContext;
 use crate::math::{Frame, renormalize};
 use crate::scene::{DirectionSample, Shading};
 use glam::Vec3;
@@ -11,7 +11,7 @@ use std::f32::consts::{PI, TAU};
 
 /// How a ray was drawn: all that the next vertex must know of the last.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Drawn {
+pub enum SampledBy {
     /// From the camera.
     Camera,
     /// From a delta lobe: no other sampler finds this direction.
@@ -21,11 +21,11 @@ pub enum Drawn {
         /// \[1/sr\]
         pdf: f32,
         /// The surface: where the light sampler would have stood (the ray's origin is off the surface).
-        from: Receiver,
+        from: LightSampleContext,
     },
 }
 
-impl Drawn {
+impl SampledBy {
     /// With the density of a draw at the vertex of `shading`.
     #[inline]
     pub fn new(pdf: Pdf, shading: &Shading) -> Self {

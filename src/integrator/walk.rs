@@ -1,11 +1,11 @@
 //! One random walk from the camera, and its next step.
 
-use super::{Classes, Drawn, Method, Observer, emitted, environment, medium};
+use super::{Classes, Method, Observer, SampledBy, emitted, environment, medium};
 use crate::bsdf::Scratch;
 use crate::math::Ray;
 use crate::medium::MediumStack;
 use crate::sampler::Sampler;
-use crate::scene::{Departure, DirectionSample, MediumInterface, Shading, Vertex};
+use crate::scene::{DirectionSample, MediumInterface, PrimitiveRef, Shading, Vertex};
 use crate::spectrum::Spectrum;
 
 /// A path as far as it has come: all that its next step depends on. A copy is a second path that begins with the same
@@ -15,7 +15,7 @@ pub struct Walk {
     /// The ray to be followed.
     pub ray: Ray,
     /// The primitive that the ray leaves, which it cannot meet again.
-    pub excluded: Departure,
+    pub excluded: PrimitiveRef,
     /// The media about the ray's origin.
     pub media: MediumStack,
     /// The only lane that is left behind a dispersive interface.
@@ -25,7 +25,7 @@ pub struct Walk {
     /// η² of all refractions: `beta` holds radiance, which they scale, and roulette looks at `beta` without.
     pub eta_scale: f32,
     /// How the ray was drawn.
-    pub drawn: Drawn,
+    pub sampled_by: SampledBy,
     /// Specular shares of the last two reflections before the eye.
     pub classes: Classes,
     /// Vertices that the path has left.
@@ -75,12 +75,12 @@ impl Walk {
     pub fn new(method: &Method, ray: &Ray, sampler: &Sampler) -> Self {
         Self {
             ray: Ray { o: ray.o, d: ray.d, t_max: ray.t_max },
-            excluded: Departure::NOWHERE,
+            excluded: PrimitiveRef::NONE,
             media: method.scene.media_at(&method.media, ray.o),
             lane: None,
             beta: Spectrum::ONE,
             eta_scale: 1.0,
-            drawn: Drawn::Camera,
+            sampled_by: SampledBy::Camera,
             classes: Classes::default(),
             depth: 0,
             first_dimension: sampler.dimension(),
@@ -128,8 +128,8 @@ impl Walk {
     #[inline(always)]
     pub fn emission<O: Observer>(&self, method: &Method, event: Event, vertex: &Vertex, watch: &mut O) -> Spectrum {
         let le = match event {
-            Event::Surface => emitted(method, vertex, self.drawn),
-            Event::Escaped => environment(method, &self.ray, self.drawn),
+            Event::Surface => emitted(method, vertex, self.sampled_by),
+            Event::Escaped => environment(method, &self.ray, self.sampled_by),
         };
         let light = self.beta * le;
         watch.light(light, &self.classes);
@@ -167,20 +167,20 @@ impl Walk {
     /// Goes on as `next` was drawn at the vertex of `shading`.
     #[inline(always)]
     pub fn scatter<O: Observer>(&mut self, shading: &Shading, next: &DirectionSample, watch: &mut O) {
-        let drawn = Drawn::new(next.pdf, shading);
+        let sampled_by = SampledBy::new(next.pdf, shading);
         self.beta *= next.weight;
         self.eta_scale *= next.eta * next.eta;
         // Light sampling looks through thin sheets. What passes one straight on meets lights as if it were not there: as
         // the direction was drawn, or the light would count twice.
         if !next.straight {
-            self.drawn = drawn;
+            self.sampled_by = sampled_by;
         }
         if let Some(across) = shading.interface.crossed(shading.vertex, next.wi) {
             self.media = across.clone();
         }
-        (self.ray, self.excluded) = (shading.ray(next.wi), shading.vertex.departure);
+        (self.ray, self.excluded) = (shading.ray(next.wi), shading.vertex.primitive);
         self.depth += 1;
-        watch.drawn(drawn, self.beta);
+        watch.sampled(sampled_by, self.beta);
         if O::CLASSES {
             self.classes = self.classes.reflected(next.weight, next.specular);
         }

@@ -1,6 +1,6 @@
 //! All lights of a scene, and the choice of one.
 
-use super::{Light, LightSample, LightSampler, Receiver};
+use super::{Light, LightSample, LightSampleContext, LightSampler};
 use crate::bsdf::Pdf;
 use crate::spectrum::Spectrum;
 use crate::texture::Textures;
@@ -49,7 +49,13 @@ impl Lights {
     /// Draws light that arrives at the receiver: `uc` chooses the light, `u` the point on it. The density (or
     /// probability) includes that of the choice.
     #[inline(always)]
-    pub fn sample(&self, receiver: &Receiver, uc: f32, u: [f32; 2], textures: &Textures) -> Option<(u32, LightSample)> {
+    pub fn sample(
+        &self,
+        receiver: &LightSampleContext,
+        uc: f32,
+        u: [f32; 2],
+        textures: &Textures,
+    ) -> Option<(u32, LightSample)> {
         let (index, choice) = self.choose(receiver, uc, u)?;
         let light = &self.lights[index as usize];
         let mut sample = light.sample(receiver.p, u, textures)?;
@@ -68,20 +74,20 @@ impl Lights {
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws the point `p`, with geometric
     /// normal `ng`, of area light number `light`.
     #[inline]
-    pub fn pdf_hit(&self, light: u32, receiver: &Receiver, p: Vec3A, ng: Vec3A) -> f32 {
+    pub fn pdf_hit(&self, light: u32, receiver: &LightSampleContext, p: Vec3A, ng: Vec3A) -> f32 {
         self.choice(light, receiver) * self.lights[light as usize].pdf(receiver.p, p, ng)
     }
 
     /// The light that [`sample`](Self::sample) asks for these numbers, and its probability; `None` where no light reaches
     /// the receiver.
     #[inline(always)]
-    pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
+    pub fn choose(&self, receiver: &LightSampleContext, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         self.choice.choose(receiver, uc, u)
     }
 
     /// Probability with which this light is chosen for the receiver.
     #[inline]
-    pub fn choice(&self, light: u32, receiver: &Receiver) -> f32 {
+    pub fn choice(&self, light: u32, receiver: &LightSampleContext) -> f32 {
         self.choice.probability(receiver, light)
     }
 
@@ -99,13 +105,13 @@ impl Lights {
 
     /// Density over solid angle with which [`sample`](Self::sample) for the receiver draws `wi` from the environments.
     #[inline]
-    pub fn environment_pdf(&self, receiver: &Receiver, wi: Vec3A) -> f32 {
+    pub fn environment_pdf(&self, receiver: &LightSampleContext, wi: Vec3A) -> f32 {
         self.environment_le_and_pdf(receiver, wi).1
     }
 
     /// [`environment_le`](Self::environment_le) and [`environment_pdf`](Self::environment_pdf) at once.
     #[inline(never)]
-    pub fn environment_le_and_pdf(&self, receiver: &Receiver, wi: Vec3A) -> (Spectrum, f32) {
+    pub fn environment_le_and_pdf(&self, receiver: &LightSampleContext, wi: Vec3A) -> (Spectrum, f32) {
         self.environments().fold((Spectrum::ZERO, 0.0), |(le, pdf), (i, light)| {
             let (own_le, own_pdf) = light.le_and_pdf_from(wi);
             // What a sun's disk does not cover need not be asked for its choice.

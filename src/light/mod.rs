@@ -33,7 +33,7 @@ pub use environment::{Environment, Texels};
 pub use point::PointLight;
 pub use profile::ProfileLight;
 pub use quadric::QuadricLight;
-pub use receiver::{Facing, Receiver};
+pub use receiver::{Facing, LightSampleContext};
 pub use sampler::LightSampler;
 pub use specimens::{Specimen, specimens};
 pub use spherical_triangle::SphericalTriangle;

@@ -4,14 +4,14 @@ use glam::Vec3A;
 
 /// A point that light is drawn towards, with what is known of the directions that matter there.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Receiver {
+pub struct LightSampleContext {
     /// The point.
     pub p: Vec3A,
     /// What it faces.
     pub facing: Facing,
 }
 
-/// Directions from which light counts at a [`Receiver`].
+/// Directions from which light counts at a [`LightSampleContext`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Facing {
     /// All alike.
@@ -22,7 +22,7 @@ pub enum Facing {
     Both(Vec3A),
 }
 
-impl Receiver {
+impl LightSampleContext {
     /// A point that light reaches from all directions alike.
     #[inline]
     pub fn anywhere(p: impl Into<Vec3A>) -> Self {

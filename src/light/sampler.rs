@@ -1,7 +1,7 @@
 //! Which light is asked.
 
 use super::tree::{LightBounds, LightTree};
-use super::{Alias, Light, Receiver};
+use super::{Alias, Light, LightSampleContext};
 use crate::math::sqr;
 use std::f32::consts::PI;
 
@@ -64,7 +64,7 @@ impl LightSampler {
     /// choice among a hundred thousand, take more than the 24 bits of `uc`: the others are hashed from `u`, which places
     /// the point on the light.
     #[inline(always)]
-    pub fn choose(&self, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
+    pub fn choose(&self, receiver: &LightSampleContext, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
         let alias = self.alias.as_ref()?;
         match &self.many {
             None => {
@@ -76,7 +76,14 @@ impl LightSampler {
     }
 
     #[inline(never)]
-    fn choose_of(&self, many: &Many, alias: &Alias, receiver: &Receiver, uc: f32, u: [f32; 2]) -> Option<(u32, f32)> {
+    fn choose_of(
+        &self,
+        many: &Many,
+        alias: &Alias,
+        receiver: &LightSampleContext,
+        uc: f32,
+        u: [f32; 2],
+    ) -> Option<(u32, f32)> {
         let fine = finer(uc, u);
         let by_power = f64::from(BY_POWER);
         if fine < by_power {
@@ -89,7 +96,7 @@ impl LightSampler {
 
     /// Probability with which [`choose`](Self::choose) gives the light.
     #[inline]
-    pub fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
+    pub fn probability(&self, receiver: &LightSampleContext, light: u32) -> f32 {
         let Some(alias) = &self.alias else { return 0.0 };
         let by_power = alias.probability(light as usize);
         match &self.many {
@@ -123,7 +130,7 @@ impl Many {
 
     /// Share of the lights at infinity.
     #[inline]
-    fn infinite_share(&self, receiver: &Receiver) -> f32 {
+    fn infinite_share(&self, receiver: &LightSampleContext) -> f32 {
         if self.infinite.is_none() {
             return 0.0;
         }
@@ -132,7 +139,7 @@ impl Many {
     }
 
     #[inline]
-    fn choose(&self, receiver: &Receiver, u: f64) -> Option<(u32, f32)> {
+    fn choose(&self, receiver: &LightSampleContext, u: f64) -> Option<(u32, f32)> {
         let share = self.infinite_share(receiver);
         let at = f64::from(share);
         if u < at {
@@ -145,7 +152,7 @@ impl Many {
     }
 
     #[inline]
-    fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
+    fn probability(&self, receiver: &LightSampleContext, light: u32) -> f32 {
         let share = self.infinite_share(receiver);
         let infinite = self.infinite.as_ref().map_or(0.0, |alias| alias.probability(light as usize));
         if infinite > 0.0 { share * infinite } else { (1.0 - share) * self.tree.probability(receiver, light) }

@@ -226,7 +226,7 @@ impl Material {
     }
 
     /// It looks at texture coordinates, tangents or vertex colours: something varies over the surface, or has a direction.
-    pub fn is_charted(&self) -> bool {
+    pub fn needs_uv(&self) -> bool {
         let part = |part: &Part| match part {
             Part::Fixed(lobes) => lobes.is_anisotropic(),
             _ => true,

@@ -2,7 +2,7 @@
 
 use super::geometry::{Geometry, Owner, Part, corners};
 use super::instance::{Instance, Prototype, map_error};
-use super::object::{Departure, Object};
+use super::object::{Object, PrimitiveRef};
 use super::{Info, Media, Scene};
 use crate::bsdf::{MAX_LAYERS, MAX_LOBES};
 use crate::bvh::{Passages, Quality, TriangleBvh};
@@ -62,7 +62,7 @@ impl Scene {
         };
         let lights = Lights::new(lights, (center, radius), &textures);
 
-        let mut primitives = vec![Departure::NOWHERE; lights.all().len()];
+        let mut primitives = vec![PrimitiveRef::NONE; lights.all().len()];
         for (emitter, primitive) in emitters.iter().zip(geometry.emitters(emitters.len())) {
             if let Some(light) = *emitter {
                 primitives[light as usize] = primitive;
@@ -189,7 +189,7 @@ impl<'a> Builder<'a> {
                     }
                     first
                 });
-                let owner = Owner { material, emitter, charted: true, passages: 0 };
+                let owner = Owner { material, emitter, needs_uv: true, passages: 0 };
                 if !instanced {
                     let mesh = to_world(mesh, &transform);
                     self.parts.push(Part { plain: false, mesh, owner, flip });
@@ -209,7 +209,7 @@ impl<'a> Builder<'a> {
                         self.emit(Some(Light::Quadric(Box::new(QuadricLight::new(placed, emitter)))));
                         (self.emitters.len() - 1) as u32
                     });
-                    let owner = Owner { material, emitter, charted: true, passages: 0 };
+                    let owner = Owner { material, emitter, needs_uv: true, passages: 0 };
                     self.objects.push(Object::Primitive(Primitive::Quadric(placed), owner));
                 }
             }
@@ -224,13 +224,13 @@ impl<'a> Builder<'a> {
         let look = |owner: &mut Owner| {
             let (material, written) =
                 (&self.compiled[owner.material as usize], &self.materials[owner.material as usize]);
-            owner.charted = material.is_charted();
+            owner.needs_uv = material.needs_uv();
             let reasons = [material.has_holes(), material.is_sheet(), material::interior(written).is_some()];
             owner.passages = reasons.iter().enumerate().map(|(i, &reason)| Passages::from(reason) << i).sum();
         };
         for part in &mut self.parts {
             look(&mut part.owner);
-            part.plain = part.mesh.normals.is_empty() && !(part.owner.charted && part.mesh.has_chart());
+            part.plain = part.mesh.normals.is_empty() && !(part.owner.needs_uv && part.mesh.has_chart());
         }
         self.objects.iter_mut().for_each(|object| look(object.owner_mut()));
     }

@@ -1,7 +1,7 @@
 //! Surfaces in space: meshes, instances of meshes, quadrics.
 
 use super::instance::Prototype;
-use super::object::{Departure, Hit, Object, WORLD};
+use super::object::{Hit, Object, PrimitiveRef, WORLD};
 use crate::bvh::{Aabb, BoxBvh, Obstacle, Passages, Passing, Quality, TriangleBvh, TriangleHit, TriangleRef};
 use crate::desc::Mesh;
 use crate::math::Ray;
@@ -20,7 +20,7 @@ pub struct Owner {
     /// Place in the scene's list of emitters; of a mesh, that of its first triangle.
     pub emitter: Option<u32>,
     /// The material looks at texture coordinates, tangents or vertex colours.
-    pub charted: bool,
+    pub needs_uv: bool,
     /// Why a shadow ray may pass: the bits of [`Passages`] are those of [`passing`].
     pub passages: Passages,
 }
@@ -102,26 +102,26 @@ impl Geometry {
 
     /// Nearest hit in (0, `ray.t_max`).
     #[inline(always)]
-    pub fn nearest(&self, ray: &Ray, leaving: Departure) -> Option<Hit> {
+    pub fn nearest(&self, ray: &Ray, excluded: PrimitiveRef) -> Option<Hit> {
         let of_world = |TriangleHit { t, u, v, slot, .. }| {
-            let primitive = Departure { object: WORLD, slot };
+            let primitive = PrimitiveRef { object: WORLD, slot };
             Hit { t, u, v, primitive }
         };
-        let nearest = self.world.nearest(ray, leaving.of(WORLD));
+        let nearest = self.world.nearest(ray, excluded.of(WORLD));
         if self.objects.is_empty() {
             return nearest.map(of_world);
         }
         let nearest = nearest.map(of_world);
         let t_max = nearest.map_or(ray.t_max, |hit| hit.t);
-        self.nearest_object(ray, t_max, leaving).or(nearest)
+        self.nearest_object(ray, t_max, excluded).or(nearest)
     }
 
     /// Nearest hit of the objects in (0, `t_max`).
     #[inline(never)]
-    fn nearest_object(&self, ray: &Ray, t_max: f32, leaving: Departure) -> Option<Hit> {
+    fn nearest_object(&self, ray: &Ray, t_max: f32, excluded: PrimitiveRef) -> Option<Hit> {
         let mut nearest = None;
         self.tree.traverse(ray, t_max, |index, t_max| {
-            let hit = self.objects[index as usize].nearest(index, &self.prototypes, ray, t_max, leaving)?;
+            let hit = self.objects[index as usize].nearest(index, &self.prototypes, ray, t_max, excluded)?;
             nearest = Some(hit);
             Some(hit.t)
         });
@@ -130,7 +130,7 @@ impl Geometry {
 
     /// What is hit in (0, `ray.t_max`) on the way from one primitive to a point of another.
     #[inline(always)]
-    pub fn obstacle(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
+    pub fn obstacle(&self, ray: &Ray, from: PrimitiveRef, to: PrimitiveRef, passing: Passing) -> Obstacle {
         let met = self.world.obstacle(ray, [from.of(WORLD), to.of(WORLD)], passing);
         if met == Obstacle::Opaque || self.objects.is_empty() {
             return met;
@@ -140,7 +140,7 @@ impl Geometry {
 
     /// What of the objects is hit in (0, `ray.t_max`).
     #[inline(never)]
-    fn obstacle_of_objects(&self, ray: &Ray, from: Departure, to: Departure, passing: Passing) -> Obstacle {
+    fn obstacle_of_objects(&self, ray: &Ray, from: PrimitiveRef, to: PrimitiveRef, passing: Passing) -> Obstacle {
         let mut met = Obstacle::None;
         self.tree.traverse(ray, ray.t_max, |index, t_max| {
             let object = &self.objects[index as usize];
@@ -155,7 +155,7 @@ impl Geometry {
     }
 
     /// Whether a hit of `ray`, which leads to a point of `target` at its end, is that point.
-    pub fn is_end(&self, ray: &Ray, hit: &Hit, target: Departure) -> bool {
+    pub fn is_end(&self, ray: &Ray, hit: &Hit, target: PrimitiveRef) -> bool {
         hit.primitive == target
             && match self.objects.get(target.object as usize) {
                 Some(Object::Primitive(primitive, _)) => !primitive.hides_own_point(ray, ray.t_max),
@@ -165,12 +165,12 @@ impl Geometry {
     }
 
     /// The primitive of each emitter, as owners number them: the ends of shadow rays.
-    pub(super) fn emitters(&self, count: usize) -> Vec<Departure> {
-        let mut found = vec![Departure::NOWHERE; count];
+    pub(super) fn emitters(&self, count: usize) -> Vec<PrimitiveRef> {
+        let mut found = vec![PrimitiveRef::NONE; count];
         let mut put = |owner: &Owner, object: u32, slots: &[TriangleRef]| {
             let Some(first) = owner.emitter else { return };
             for (to, &slot) in found[first as usize..].iter_mut().zip(slots) {
-                *to = Departure { object, slot };
+                *to = PrimitiveRef { object, slot };
             }
         };
         if self.parts.iter().any(|part| part.owner.emitter.is_some()) {
@@ -202,7 +202,7 @@ impl Geometry {
     /// their sake.
     #[inline(always)]
     pub fn plain_surface(&self, hit: &Hit) -> Option<(Surface, Owner)> {
-        let Hit { u, v, primitive: Departure { object, slot }, .. } = *hit;
+        let Hit { u, v, primitive: PrimitiveRef { object, slot }, .. } = *hit;
         if object != WORLD {
             return None;
         }
@@ -216,21 +216,21 @@ impl Geometry {
 
     /// The surface at any hit of `ray`, and whose it is.
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> (Surface, Owner) {
-        let Hit { u, v, primitive: Departure { object, slot }, .. } = *hit;
+        let Hit { u, v, primitive: PrimitiveRef { object, slot }, .. } = *hit;
         if let Some(object) = self.objects.get(object as usize) {
             return object.surface(&self.prototypes, ray, hit);
         }
         let Origin { part, triangle, ng } = self.origin[self.world.triangle(slot) as usize];
         let part = &self.parts[part as usize];
         let flat = flat_surface(self.world.vertices(slot), u, v, ng.into());
-        let (p, attributes) = corners(&part.mesh, triangle, part.owner.charted);
+        let (p, attributes) = corners(&part.mesh, triangle, part.owner.needs_uv);
         let surface = with_attributes(flat, p, u, v, &attributes, part.flip);
         (surface, part.owner.of_triangle(triangle))
     }
 
     /// ∂p/∂u and ∂p/∂v at a hit of `ray`, in world space; `None` where the surface has no texture coordinates.
     pub fn derivatives(&self, ray: &Ray, hit: &Hit) -> Option<Derivatives> {
-        let Hit { t, u, v, primitive: Departure { object, slot } } = *hit;
+        let Hit { t, u, v, primitive: PrimitiveRef { object, slot } } = *hit;
         let of_mesh = |mesh: &Mesh, triangle: u32, map: &dyn Fn(Vec3) -> Vec3| {
             let (p, attributes) = corners(mesh, triangle, true);
             triangle_derivatives(p.map(map), attributes.uv[0]?)
@@ -285,18 +285,18 @@ impl Owner {
     }
 }
 
-/// Vertices of a triangle and what they carry; all but the normals only where it is to be `charted`.
+/// Vertices of a triangle and what they carry; all but the normals only where it is to be `needs_uv`.
 #[inline]
-pub(super) fn corners(mesh: &Mesh, triangle: u32, charted: bool) -> ([Vec3; 3], TriangleAttributes) {
+pub(super) fn corners(mesh: &Mesh, triangle: u32, needs_uv: bool) -> ([Vec3; 3], TriangleAttributes) {
     let index = mesh.indices[triangle as usize];
     fn pick<T: Copy>(list: &[T], index: [u32; 3]) -> Option<[T; 3]> {
         (!list.is_empty()).then(|| index.map(|i| list[i as usize]))
     }
     let attributes = TriangleAttributes {
         normals: pick(&mesh.normals, index),
-        tangents: if charted { pick(&mesh.tangents, index) } else { None },
-        uv: if charted { [pick(&mesh.uv[0], index), pick(&mesh.uv[1], index)] } else { [None; 2] },
-        colors: if charted { pick(&mesh.colors, index) } else { None },
+        tangents: if needs_uv { pick(&mesh.tangents, index) } else { None },
+        uv: if needs_uv { [pick(&mesh.uv[0], index), pick(&mesh.uv[1], index)] } else { [None; 2] },
+        colors: if needs_uv { pick(&mesh.colors, index) } else { None },
     };
     (index.map(|i| mesh.positions[i as usize]), attributes)
 }

@@ -48,10 +48,10 @@ impl Instance {
         prototype: &Prototype,
         ray: &Ray,
         t_max: f32,
-        leaving: TriangleRef,
+        excluded: TriangleRef,
     ) -> Option<TriangleHit> {
         let (local, skipped) = self.ray(ray, t_max);
-        let mut hit = prototype.bvh.nearest(&local, leaving)?;
+        let mut hit = prototype.bvh.nearest(&local, excluded)?;
         hit.t += skipped;
         Some(hit)
     }
@@ -73,7 +73,7 @@ impl Instance {
     /// The surface, in the world, of a triangle of the prototype.
     pub(super) fn surface(&self, mesh: &Mesh, triangle: u32, u: f32, v: f32) -> Surface {
         let m = &self.transform.to_world;
-        let (local, mut attributes) = corners(mesh, triangle, self.owner.charted);
+        let (local, mut attributes) = corners(mesh, triangle, self.owner.needs_uv);
         let p = local.map(|p| m.transform_point3(p));
         attributes.normals =
             attributes.normals.map(|n| n.map(|n| self.transform.normal_to_world(n).normalize_or_zero().into()));

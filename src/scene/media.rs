@@ -1,6 +1,6 @@
 //! Interiors of a scene's materials, and which of them a point is in.
 
-use super::{Departure, Scene, Vertex};
+use super::{PrimitiveRef, Scene, Vertex};
 use crate::desc;
 use crate::material;
 use crate::math::{Ray, offset_origin};
@@ -162,7 +162,7 @@ impl Scene {
 
     #[inline(never)]
     fn media_across(&self, near: &MediaAbout, p: Vec3A) -> MediumStack {
-        let (mut media, mut excluded) = (near.media.clone(), Departure::NOWHERE);
+        let (mut media, mut excluded) = (near.media.clone(), PrimitiveRef::NONE);
         let mut ray = Ray { o: near.p, d: p - near.p, t_max: 1.0 };
         while let Some(hit) = self.geometry.nearest(&ray, excluded) {
             let vertex = self.vertex(&ray, &hit);
@@ -171,7 +171,7 @@ impl Scene {
             {
                 media = crossing.across;
             }
-            (ray, excluded) = (self.beyond(&ray, &vertex), vertex.departure);
+            (ray, excluded) = (self.beyond(&ray, &vertex), vertex.primitive);
             if ray.t_max <= 0.0 {
                 break;
             }
@@ -210,9 +210,9 @@ impl Scene {
 
     /// The interiors that a ray leaves without having entered them, in order.
     fn left(&self, p: Vec3A, way: Vec3A) -> ArrayVec<u32, MOST_NESTED> {
-        let (mut ray, mut leaving) = (Ray::new(p, way.normalize()), Departure::NOWHERE);
+        let (mut ray, mut excluded) = (Ray::new(p, way.normalize()), PrimitiveRef::NONE);
         let (mut left, mut entered) = (ArrayVec::new(), vec![0u32; self.media.interiors.len()]);
-        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
+        while let Some(hit) = self.geometry.nearest(&ray, excluded) {
             let vertex = self.vertex(&ray, &hit);
             if let Some(id) = self.media.of(vertex.material)
                 && self.coverage(&vertex) >= 0.5
@@ -227,7 +227,7 @@ impl Scene {
                 }
             }
             let s = &vertex.surface;
-            (ray, leaving) = (Ray::new(offset_origin(s.p, s.p_error, s.ng, ray.d), ray.d), vertex.departure);
+            (ray, excluded) = (Ray::new(offset_origin(s.p, s.p_error, s.ng, ray.d), ray.d), vertex.primitive);
         }
         left
     }

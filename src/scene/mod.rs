@@ -12,7 +12,7 @@ mod shading;
 pub use geometry::Geometry;
 pub use info::Info;
 pub use media::{Media, MediaAbout, MediumInterface};
-pub use object::{Departure, Hit};
+pub use object::{Hit, PrimitiveRef};
 pub use shading::{CosineEval, DirectionSample, Shading};
 
 use crate::bsdf::Scratch;
@@ -41,8 +41,8 @@ pub struct Scene {
     pub lights: Lights,
     /// Light of each emissive triangle and quadric; none where a triangle has no area in the world.
     emitters: Vec<Option<u32>>,
-    /// Primitive of each light; [`Departure::NOWHERE`] of those that have none.
-    primitives: Vec<Departure>,
+    /// Primitive of each light; [`PrimitiveRef::NONE`] of those that have none.
+    primitives: Vec<PrimitiveRef>,
     /// Cameras as written: the resolution decides how they become rays.
     pub cameras: Vec<desc::Camera>,
     /// What the materials enclose.
@@ -80,7 +80,7 @@ pub struct Vertex {
     /// The ray came from the side of the geometric normal.
     pub front: bool,
     /// Of the rays that leave it.
-    pub departure: Departure,
+    pub primitive: PrimitiveRef,
 }
 
 impl Vertex {
@@ -91,7 +91,7 @@ impl Vertex {
         material: 0,
         light: None,
         front: false,
-        departure: Departure::NOWHERE,
+        primitive: PrimitiveRef::NONE,
     };
 }
 
@@ -100,7 +100,7 @@ impl Scene {
     /// 1 − coverage; `u` gives the numbers in [0, 1) that decide.
     #[inline]
     pub fn intersect(&self, ray: &Ray, u: &mut impl FnMut() -> f32) -> Option<Vertex> {
-        self.intersect_from(ray, Departure::NOWHERE, &mut MediumStack::default(), u)
+        self.intersect_from(ray, PrimitiveRef::NONE, &mut MediumStack::default(), u)
     }
 
     /// The nearest surface along a ray that leaves the primitive `excluded` and begins in `media`, which become those before
@@ -109,7 +109,7 @@ impl Scene {
     pub fn intersect_from(
         &self,
         ray: &Ray,
-        excluded: Departure,
+        excluded: PrimitiveRef,
         media: &mut MediumStack,
         u: &mut impl FnMut() -> f32,
     ) -> Option<Vertex> {
@@ -122,7 +122,7 @@ impl Scene {
     pub fn intersect_into(
         &self,
         ray: &Ray,
-        excluded: Departure,
+        excluded: PrimitiveRef,
         media: &mut MediumStack,
         u: &mut impl FnMut() -> f32,
         vertex: &mut Vertex,
@@ -151,7 +151,7 @@ impl Scene {
                 }
             }
             ray = self.beyond(&ray, vertex);
-            let Some(hit) = self.geometry.nearest(&ray, vertex.departure) else { return false };
+            let Some(hit) = self.geometry.nearest(&ray, vertex.primitive) else { return false };
             self.put_vertex(&ray, &hit, vertex);
         }
     }
@@ -169,15 +169,15 @@ impl Scene {
     ) -> Seen {
         let target = self.primitives[index as usize];
         // A triangle does not light itself.
-        if target.is_triangle() && target == vertex.departure {
+        if target.is_triangle() && target == vertex.primitive {
             return Seen::NOTHING;
         }
         let ray = shadow_ray(&vertex.surface, light);
         let passing = passing(most_sheets > 0, !media.is_empty());
-        match self.geometry.obstacle(&ray, vertex.departure, target, passing) {
+        match self.geometry.obstacle(&ray, vertex.primitive, target, passing) {
             Obstacle::None => Seen::ALL,
             Obstacle::Opaque => Seen::NOTHING,
-            Obstacle::Passable => self.seen_through(ray, vertex.departure, target, media, most_sheets),
+            Obstacle::Passable => self.seen_through(ray, vertex.primitive, target, media, most_sheets),
         }
     }
 
@@ -186,13 +186,13 @@ impl Scene {
     fn seen_through(
         &self,
         mut ray: Ray,
-        mut leaving: Departure,
-        target: Departure,
+        mut excluded: PrimitiveRef,
+        target: PrimitiveRef,
         media: &MediumStack,
         most_sheets: u32,
     ) -> Seen {
         let (mut seen, mut media) = (Seen::ALL, media.clone());
-        while let Some(hit) = self.geometry.nearest(&ray, leaving) {
+        while let Some(hit) = self.geometry.nearest(&ray, excluded) {
             if self.geometry.is_end(&ray, &hit, target) {
                 break;
             }
@@ -210,7 +210,7 @@ impl Scene {
                 }
                 Some(across) => media = across,
             }
-            (ray, leaving) = (self.beyond(&ray, &vertex), vertex.departure);
+            (ray, excluded) = (self.beyond(&ray, &vertex), vertex.primitive);
             if ray.t_max <= 0.0 {
                 break;
             }
@@ -273,7 +273,7 @@ impl Scene {
         let wo = -ray.d;
         let light = owner.emitter.and_then(|emitter| self.emitters[emitter as usize]);
         let front = wo.dot(surface.ng) > 0.0;
-        Vertex { surface, wo, material: owner.material, light, front, departure: hit.primitive }
+        Vertex { surface, wo, material: owner.material, light, front, primitive: hit.primitive }
     }
 
     fn coverage(&self, vertex: &Vertex) -> f32 {

@@ -17,7 +17,7 @@ pub enum Object {
 
 /// Which primitive of a scene: the object that it belongs to and, of a triangle, where that object's tree holds it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Departure {
+pub struct PrimitiveRef {
     pub(super) object: u32,
     pub(super) slot: TriangleRef,
 }
@@ -25,9 +25,9 @@ pub struct Departure {
 /// Object of the triangles that stand once, in world space.
 pub(super) const WORLD: u32 = u32::MAX;
 
-impl Departure {
+impl PrimitiveRef {
     /// None: of rays that leave no primitive, of lights that have none.
-    pub const NOWHERE: Self = Self { object: WORLD, slot: TriangleRef::NONE };
+    pub const NONE: Self = Self { object: WORLD, slot: TriangleRef::NONE };
 
     /// It is a triangle, of the world or of an instance.
     #[inline]
@@ -52,13 +52,13 @@ pub struct Hit {
     /// As [`PrimitiveHit::v`].
     pub v: f32,
     /// Which primitive.
-    pub primitive: Departure,
+    pub primitive: PrimitiveRef,
 }
 
 impl Hit {
     /// Of a primitive's own hit.
     #[inline]
-    pub(super) fn of(PrimitiveHit { t, u, v }: PrimitiveHit, primitive: Departure) -> Self {
+    pub(super) fn of(PrimitiveHit { t, u, v }: PrimitiveHit, primitive: PrimitiveRef) -> Self {
         Self { t, u, v, primitive }
     }
 }
@@ -98,17 +98,17 @@ impl Object {
         prototypes: &[Prototype],
         ray: &Ray,
         t_max: f32,
-        excluded: Departure,
+        excluded: PrimitiveRef,
     ) -> Option<Hit> {
         match self {
             Self::Instance(instance) => {
                 let prototype = &prototypes[instance.prototype as usize];
                 let hit = instance.nearest(prototype, ray, t_max, excluded.of(index))?;
-                Some(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: Departure { object: index, slot: hit.slot } })
+                Some(Hit { t: hit.t, u: hit.u, v: hit.v, primitive: PrimitiveRef { object: index, slot: hit.slot } })
             }
             Self::Primitive(primitive, _) => {
                 let hit = primitive.intersect(ray, t_max)?;
-                Some(Hit::of(hit, Departure { object: index, slot: TriangleRef::NONE }))
+                Some(Hit::of(hit, PrimitiveRef { object: index, slot: TriangleRef::NONE }))
             }
         }
     }
@@ -121,7 +121,7 @@ impl Object {
         prototypes: &[Prototype],
         ray: &Ray,
         t_max: f32,
-        [from, to]: [Departure; 2],
+        [from, to]: [PrimitiveRef; 2],
     ) -> bool {
         match self {
             Self::Instance(instance) => {
@@ -143,7 +143,7 @@ impl Object {
                 (instance.surface(mesh, triangle, u, v), instance.owner.of_triangle(triangle))
             }
             Self::Primitive(primitive, owner) => {
-                (primitive.surface(ray, &PrimitiveHit { t, u, v }, owner.charted), *owner)
+                (primitive.surface(ray, &PrimitiveHit { t, u, v }, owner.needs_uv), *owner)
             }
         }
     }

@@ -2,7 +2,7 @@
 
 use super::{MediumInterface, Vertex};
 use crate::bsdf::{BsdfAt, Eval, Pdf, Sample, Scratch, Transport};
-use crate::light::{Facing, Receiver};
+use crate::light::{Facing, LightSampleContext};
 use crate::material::Material;
 use crate::math::{Frame, Ray, offset_origin, renormalize};
 use crate::spectrum::Spectrum;
@@ -157,10 +157,10 @@ impl<'a> Shading<'a> {
 
     /// Who asks for light here: the half-space above the surface on the side of `wo`, or both where something is transmitted.
     #[inline]
-    pub fn receiver(&self) -> Receiver {
+    pub fn receiver(&self) -> LightSampleContext {
         let (p, n) = (self.vertex.surface.p, self.vertex.surface.ng);
         let n = if self.vertex.front { n } else { -n };
-        Receiver { p, facing: if self.bsdf.transmits() { Facing::Both(n) } else { Facing::Half(n) } }
+        LightSampleContext { p, facing: if self.bsdf.transmits() { Facing::Both(n) } else { Facing::Half(n) } }
     }
 
     /// The shading normal differs from the geometric one by more than rounding.

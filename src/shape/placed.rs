@@ -70,11 +70,11 @@ impl PlacedQuadric {
         self.quadric.roots(o, d).map(|t| if t > t_min { t } else { f64::NAN })
     }
 
-    /// The surface where `ray` meets it at `t`, in world space; texture coordinates and tangent only where it is to be
-    /// `charted`, for they take a while.
-    pub fn surface(&self, ray: &Ray, t: f32, charted: bool) -> Surface {
+    /// The surface where `ray` meets it at `t`, in world space; texture coordinates and tangent only where the material
+    /// `needs_uv`, for they take a while.
+    pub fn surface(&self, ray: &Ray, t: f32, needs_uv: bool) -> Surface {
         let (o, d) = self.ray_to_object(ray);
-        self.surface_at(&self.quadric.refine(o, d, f64::from(t)), charted)
+        self.surface_at(&self.quadric.refine(o, d, f64::from(t)), needs_uv)
     }
 
     /// ∂p/∂u and ∂p/∂v in world space where `ray` meets it at `t`.
@@ -86,8 +86,8 @@ impl PlacedQuadric {
     }
 
     /// The world-space surface at a point of the quadric.
-    pub fn surface_at(&self, point: &QuadricPoint, charted: bool) -> Surface {
-        let chart = if charted { self.quadric.chart(point) } else { Chart::default() };
+    pub fn surface_at(&self, point: &QuadricPoint, needs_uv: bool) -> Surface {
+        let chart = if needs_uv { self.quadric.chart(point) } else { Chart::default() };
         let p = self.to_world.transform_point3(point.p);
         let ng = self.normal_to_world(point.n).as_vec3a();
         let mirror = if self.transform.mirrors() != self.reversed { -1.0 } else { 1.0 };

@@ -63,13 +63,13 @@ impl Primitive {
         }
     }
 
-    /// The surface where `ray` meets it; texture coordinates and tangent of a quadric only where it is to be `charted`, for
+    /// The surface where `ray` meets it; texture coordinates and tangent of a quadric only where the material `needs_uv`, for
     /// they take a while.
     #[inline]
-    pub fn surface(&self, ray: &Ray, hit: &PrimitiveHit, charted: bool) -> Surface {
+    pub fn surface(&self, ray: &Ray, hit: &PrimitiveHit, needs_uv: bool) -> Surface {
         match self {
             Self::Triangle(t) => triangle_surface(t.p, hit.u, hit.v, &t.attributes, t.flip),
-            Self::Quadric(quadric) => quadric.surface(ray, hit.t, charted),
+            Self::Quadric(quadric) => quadric.surface(ray, hit.t, needs_uv),
         }
     }
 

@@ -5,7 +5,7 @@ use radianza::bsdf::Pdf;
 use radianza::desc::{self, ColorParam, Emission, Sides};
 use radianza::glam::{Mat3, Mat4, Vec3, Vec3A};
 use radianza::light::{
-    Emitter, Environment, Facing, Light, LightSampler, Lights, QuadricLight, Receiver, TriangleLight,
+    Emitter, Environment, Facing, Light, LightSampleContext, LightSampler, Lights, QuadricLight, TriangleLight,
 };
 use radianza::math::Transform;
 use radianza::shape::{PlacedQuadric, Quadric, TriangleAttributes};
@@ -28,9 +28,9 @@ fn darkness_is_empty() {
     for lights in [vec![], vec![black.clone(), black]] {
         let lights = Lights::new(lights, (Vec3::ZERO, 1.0), &textures);
         assert!(lights.is_empty());
-        assert!(lights.sample(&Receiver::anywhere(Vec3::ONE), 0.5, [0.5; 2], &textures).is_none());
+        assert!(lights.sample(&LightSampleContext::anywhere(Vec3::ONE), 0.5, [0.5; 2], &textures).is_none());
         assert_eq!(lights.environment_le(Vec3A::X), Spectrum::ZERO);
-        assert_eq!(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), Vec3A::X), 0.0);
+        assert_eq!(lights.environment_pdf(&LightSampleContext::anywhere(Vec3::ZERO), Vec3A::X), 0.0);
         assert_eq!(lights.total_power(), Spectrum::ZERO);
     }
 }
@@ -52,10 +52,11 @@ fn environments_add_up() {
     let mut rng = Pcg64Mcg::new(9);
     for _ in 0..1000 {
         let u = [rng.random(), rng.random()];
-        let (_, s) =
-            lights.sample(&Receiver::anywhere(Vec3::ZERO), rng.random(), u, &textures).expect("light from everywhere");
+        let (_, s) = lights
+            .sample(&LightSampleContext::anywhere(Vec3::ZERO), rng.random(), u, &textures)
+            .expect("light from everywhere");
         assert_eq!(s.le, lights.environment_le(s.wi));
-        assert_eq!(s.pdf, Pdf::SolidAngle(lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), s.wi)));
+        assert_eq!(s.pdf, Pdf::SolidAngle(lights.environment_pdf(&LightSampleContext::anywhere(Vec3::ZERO), s.wi)));
     }
 }
 
@@ -144,7 +145,7 @@ fn the_sky_and_its_sun_light_the_ground_together() {
     let exact = sky + f64::from(irradiance[1] * -direction.y);
 
     let compiled = radianza::scene::Scene::compile(&scene).expect("compiles");
-    let receiver = Receiver { p: Vec3A::ZERO, facing: Facing::Half(Vec3A::Y) };
+    let receiver = LightSampleContext { p: Vec3A::ZERO, facing: Facing::Half(Vec3A::Y) };
     let (mut rng, mut seen) = (Pcg64Mcg::new(4), radianza::stats::Moments::default());
     for _ in 0..200_000 {
         let u = [rng.random(), rng.random()];
@@ -165,7 +166,7 @@ fn more_lights_than_numbers_of_24_bits() {
     // The last has as much as all others together.
     let fluxes: Vec<f64> = (0..n).map(|i| if i == n - 1 { (n - 1) as f64 } else { 1.0 }).collect();
     let choice = LightSampler::new(&[], &fluxes, 1.0);
-    let receiver = Receiver::anywhere(Vec3::ZERO);
+    let receiver = LightSampleContext::anywhere(Vec3::ZERO);
     assert!(!choice.is_empty());
     let last = f64::from(choice.probability(&receiver, n as u32 - 1));
     assert!((last - 0.5).abs() < 0.01, "{last}");

@@ -8,7 +8,7 @@ use radianza::desc::{self, ColorParam, Model, Object, Shape};
 use radianza::math::Ray;
 use radianza::medium::MediumStack;
 use radianza::sampler::{Kind, Sampler};
-use radianza::scene::{Departure, MediumInterface, Scene};
+use radianza::scene::{MediumInterface, PrimitiveRef, Scene};
 use radianza::warp;
 use rayon::prelude::*;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -79,7 +79,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
         let mut u = Sampler::new(Kind::Independent, 2, [0, 0], i, 1);
         let mut scratch = Scratch::new();
         let (mut ray, mut leaving) =
-            (Ray::new(Vec3::new(3.0, -1.0, 7.0), warp::uniform_sphere(u.next_2d())), Departure::NOWHERE);
+            (Ray::new(Vec3::new(3.0, -1.0, 7.0), warp::uniform_sphere(u.next_2d())), PrimitiveRef::NONE);
         for bounce in 0..BOUNCES {
             let met = scene.intersect_from(&ray, leaving, &mut MediumStack::default(), &mut || 0.5);
             let vertex = met.unwrap_or_else(|| panic!("path {i} got out at bounce {bounce}: {ray:?}"));
@@ -88,7 +88,7 @@ fn paths_in_a_closed_furnace_of_a_million_triangles_do_not_get_out() {
             let wi = warp::cosine_hemisphere(u.next_2d());
             let wi = if shading.wo.z < 0.0 { -wi } else { wi };
             ray = shading.ray(shading.frame.to_world(wi).normalize());
-            leaving = vertex.departure;
+            leaving = vertex.primitive;
         }
     });
     println!("{PATHS} paths of {BOUNCES} bounces among {triangles} triangles: none got out");

@@ -12,7 +12,7 @@ mod node;
 
 pub use bounds::LightBounds;
 
-use super::Receiver;
+use super::LightSampleContext;
 use node::Node;
 
 /// The tree.
@@ -34,14 +34,14 @@ impl LightTree {
 
     /// Bound on what the receiver gets from all lights together: intensity/d², scaled.
     #[inline]
-    pub fn importance(&self, receiver: &Receiver) -> f32 {
+    pub fn importance(&self, receiver: &LightSampleContext) -> f32 {
         Node::importances([&self.nodes[0]; 2], receiver)[0]
     }
 
     /// Chooses a light at `u` in \[0, 1), with its probability; `None` where the way ends at nodes that send nothing.
     /// Each turn uses up a part of `u`, which must have as many random bits as the least probability takes.
     #[inline]
-    pub fn choose(&self, receiver: &Receiver, mut u: f64) -> Option<(u32, f32)> {
+    pub fn choose(&self, receiver: &LightSampleContext, mut u: f64) -> Option<(u32, f32)> {
         let (mut node, mut probability) = (&self.nodes[0], 1.0);
         while !node.leaf {
             let first = self.first(node, receiver)?;
@@ -61,7 +61,7 @@ impl LightTree {
 
     /// Probability with which [`choose`](Self::choose) gives the light.
     #[inline]
-    pub fn probability(&self, receiver: &Receiver, light: u32) -> f32 {
+    pub fn probability(&self, receiver: &LightSampleContext, light: u32) -> f32 {
         let Some(mut trail) = self.trails[light as usize] else { return 0.0 };
         let (mut node, mut probability) = (&self.nodes[0], 1.0);
         while !node.leaf {
@@ -76,7 +76,7 @@ impl LightTree {
 
     /// Probability of the first child of an inner node; `None` where neither sends anything.
     #[inline]
-    fn first(&self, node: &Node, receiver: &Receiver) -> Option<f32> {
+    fn first(&self, node: &Node, receiver: &LightSampleContext) -> Option<f32> {
         let children = &self.nodes[node.next as usize..][..2];
         let [a, b] = Node::importances([&children[0], &children[1]], receiver);
         let sum = a + b;

@@ -1,7 +1,7 @@
 //! A node of the light tree, and what it may send to a point.
 
 use super::LightBounds;
-use crate::light::{Facing, Receiver};
+use crate::light::{Facing, LightSampleContext};
 use crate::math::sqr;
 use glam::{BVec4A, Vec3A, Vec4};
 
@@ -49,7 +49,7 @@ impl Node {
     ///
     /// Both at once, in lanes of a register: roots and quotients are most of the work.
     #[inline]
-    pub(super) fn importances([a, b]: [&Self; 2], receiver: &Receiver) -> [f32; 2] {
+    pub(super) fn importances([a, b]: [&Self; 2], receiver: &LightSampleContext) -> [f32; 2] {
         /// Keeps sums finite.
         const MOST: f32 = 1e30;
         /// Least cosine at the light, for the penumbra of a spot may be wider than a right angle.

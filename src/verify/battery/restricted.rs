@@ -5,7 +5,7 @@
 use super::agreement::{samples, scene, small};
 use crate::camera::Camera;
 use crate::desc::{Integrator, SamplerKind, Strategy};
-use crate::integrator::{Classes, Drawn, Method, Observer, Solver, radiance};
+use crate::integrator::{Classes, Method, Observer, SampledBy, Solver, radiance};
 use crate::render::{Error, Settings};
 use crate::sampler::{Kind, Sampler, hash};
 use crate::scene::Scene;
@@ -102,8 +102,8 @@ impl Observer for Restricted {
             }
         }
     }
-    fn drawn(&mut self, drawn: Drawn, _beta: Spectrum) {
-        if self.smooth_at.is_none() && matches!(drawn, Drawn::Smooth { .. }) {
+    fn sampled(&mut self, sampled_by: SampledBy, _beta: Spectrum) {
+        if self.smooth_at.is_none() && matches!(sampled_by, SampledBy::Smooth { .. }) {
             self.smooth_at = Some(self.reflections);
         }
         self.reflections += 1;

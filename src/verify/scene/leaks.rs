@@ -11,7 +11,7 @@ use super::{Subject, count, unique};
 use crate::desc::{self, Model, Object, Shape};
 use crate::math::{Frame, Ray, Transform, offset_origin};
 use crate::sampler::{Kind, Sampler};
-use crate::scene::{Departure, Scene};
+use crate::scene::{PrimitiveRef, Scene};
 use crate::shape::{flat_surface, triangle_normal};
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::{uniform_hemisphere, uniform_triangle};
@@ -249,7 +249,7 @@ impl Surface {
             let d = if aimed { target } else { Frame::from_z(inner).to_world(local).normalize_or(inner) };
             let o = offset_origin(from.p, from.p_error, ng, d);
             verdict.rays += 1;
-            if scene.geometry.nearest(&Ray::new(o, d), Departure::NOWHERE).is_some() || misses == MOST_MISSES {
+            if scene.geometry.nearest(&Ray::new(o, d), PrimitiveRef::NONE).is_some() || misses == MOST_MISSES {
                 continue;
             }
             // Inside of thin walls and of overlapping parts the origin may have been outside.

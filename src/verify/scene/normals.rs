@@ -4,7 +4,7 @@ use super::surfaces::{Placed, area_vector, corners, meshes};
 use super::{Subject, count};
 use crate::bsdf::Scratch;
 use crate::sampler::{Kind, Sampler};
-use crate::scene::{Departure, Shading, Vertex};
+use crate::scene::{PrimitiveRef, Shading, Vertex};
 use crate::shape::{TriangleAttributes, triangle_surface};
 use crate::verify::{Findings, Task, Topic, Trial};
 use crate::warp::{uniform_sphere, uniform_triangle};
@@ -144,7 +144,7 @@ impl Frames {
                 material: placed.object.material as u32,
                 light: None,
                 front: wo.dot(surface.ng) > 0.0,
-                departure: Departure::NOWHERE,
+                primitive: PrimitiveRef::NONE,
             };
             let shading = Shading::new(material, &vertex, &subject.scene.textures, &mut scratch);
             let f = shading.frame;

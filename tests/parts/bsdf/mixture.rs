@@ -47,7 +47,7 @@ fn deltas_are_those_that_sampling_draws() {
                 Some(sample) if matches!(sample.pdf, Pdf::Discrete(_)) => f64::from(sample.weight.0.x),
                 _ => 0.0,
             });
-            // Drawn alone, a delta's weight still counts the chance that sampling takes another lobe.
+            // SampledBy alone, a delta's weight still counts the chance that sampling takes another lobe.
             let p = s.bsdf.delta_probability(wo);
             let alone = replicates(8, 1024, |uc, _| {
                 let sample = s.bsdf.sample_delta(wo, uc, Transport::Radiance).expect("there are deltas");

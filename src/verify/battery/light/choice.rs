@@ -7,7 +7,7 @@ use super::polygon::polygon;
 use super::{environment_light, quadric_light, rng, triangle_light};
 use crate::bsdf::Pdf;
 use crate::desc::{self, Sides};
-use crate::light::{Alias, Light, Lights, Receiver};
+use crate::light::{Alias, Light, LightSampleContext, Lights};
 use crate::math::Ray;
 use crate::shape::Quadric;
 use crate::stats::chi2_test;
@@ -64,7 +64,7 @@ fn eight() -> Lights {
 
 /// χ² of the light chosen by power, counted through its samples at the origin, which all lights reach.
 fn choice(trial: &Trial, found: &mut Findings) {
-    let (lights, receiver) = (eight().by_power(), Receiver::anywhere(Vec3::ZERO));
+    let (lights, receiver) = (eight().by_power(), LightSampleContext::anywhere(Vec3::ZERO));
     let choices: Vec<f64> = (0..lights.all().len() as u32).map(|i| f64::from(lights.choice(i, &receiver))).collect();
     found.checks.holds("eight lights", choices.len() == 8);
     found.checks.bound("probabilities add up to 1", (choices.iter().sum::<f64>() - 1.0).abs(), 0.0);
@@ -125,7 +125,8 @@ fn sum(trial: &Trial, found: &mut Findings) {
         + PI * 0.2
         + polygon(&PATCH.map(|p| p.as_dvec3()), Vec3::Z.as_dvec3());
     let estimate = to_detect(trial, exact, 3e-3, trial.work(1 << 18, 1 << 20), |[a, b, c]: [f32; 3]| {
-        let Some((_, s)) = lights.sample(&Receiver::anywhere(Vec3::ZERO), a, [b, c], &Textures::default()) else {
+        let Some((_, s)) = lights.sample(&LightSampleContext::anywhere(Vec3::ZERO), a, [b, c], &Textures::default())
+        else {
             return 0.0;
         };
         let (Pdf::SolidAngle(p) | Pdf::Discrete(p)) = s.pdf;
@@ -142,14 +143,16 @@ fn densities(trial: &Trial, found: &mut Findings) {
     let draws = trial.work(20_000, 400_000);
     for _ in 0..draws {
         let u = [rng.random(), rng.random()];
-        let Some((i, s)) = lights.sample(&Receiver::anywhere(Vec3::ZERO), rng.random(), u, &Textures::default()) else {
+        let Some((i, s)) =
+            lights.sample(&LightSampleContext::anywhere(Vec3::ZERO), rng.random(), u, &Textures::default())
+        else {
             continue;
         };
         let Pdf::SolidAngle(pdf) = s.pdf else { continue };
         let again = match &lights.all()[i as usize] {
-            Light::Environment(_) => lights.environment_pdf(&Receiver::anywhere(Vec3::ZERO), s.wi),
+            Light::Environment(_) => lights.environment_pdf(&LightSampleContext::anywhere(Vec3::ZERO), s.wi),
             light => match light.intersect(&Ray::new(Vec3::ZERO, s.wi)) {
-                Some((_, hit)) => lights.pdf_hit(i, &Receiver::anywhere(Vec3::ZERO), hit.p, hit.ng),
+                Some((_, hit)) => lights.pdf_hit(i, &LightSampleContext::anywhere(Vec3::ZERO), hit.p, hit.ng),
                 None => continue,
             },
         };

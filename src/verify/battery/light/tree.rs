@@ -5,7 +5,7 @@ use super::{environment_light, quadric_light, random_direction, rng, triangle_li
 use crate::bsdf::Pdf;
 use crate::desc::{self, Sides};
 use crate::light::tree::LightTree;
-use crate::light::{Facing, Light, Lights, Receiver};
+use crate::light::{Facing, Light, LightSampleContext, Lights};
 use crate::shape::Quadric;
 use crate::stats::chi2_test;
 use crate::texture::Textures;
@@ -67,14 +67,14 @@ fn outdoors(all_around: bool) -> Lights {
 }
 
 /// A receiver in the box or around it.
-fn receiver(rng: &mut Pcg64Mcg) -> Receiver {
+fn receiver(rng: &mut Pcg64Mcg) -> LightSampleContext {
     let p = Vec3::new(rng.random(), rng.random(), rng.random()) * Vec3::new(8.0, 4.0, 8.0) - Vec3::new(2.0, 1.0, 2.0);
     let facing = match rng.random::<u32>() % 3 {
         0 => Facing::All,
         1 => Facing::Half(random_direction(rng).into()),
         _ => Facing::Both(random_direction(rng).into()),
     };
-    Receiver { p: p.into(), facing }
+    LightSampleContext { p: p.into(), facing }
 }
 
 /// What comes, light by light and nothing at all, against what is stated; the probability given with a choice is that
@@ -84,7 +84,7 @@ fn choice(trial: &Trial, found: &mut Findings) {
     let (mut same, mut off) = (true, 0f64);
     for place in 0..trial.pick(4, 12) {
         let lights = outdoors(place == 0);
-        let receiver = if place == 0 { Receiver::anywhere(Vec3::ONE) } else { receiver(&mut rng) };
+        let receiver = if place == 0 { LightSampleContext::anywhere(Vec3::ONE) } else { receiver(&mut rng) };
         let mut stated: Vec<f64> =
             (0..lights.all().len() as u32).map(|i| f64::from(lights.choice(i, &receiver))).collect();
         let total: f64 = stated.iter().sum();
@@ -144,7 +144,7 @@ fn irradiance(trial: &Trial, found: &mut Findings) {
     for p in [Vec3A::new(2.0, 1.0, 2.0), Vec3A::new(-0.5, 0.2, 3.0)] {
         let by = |lights: &Lights, seed: u64, most: u64| {
             to_detect(&Trial { seed, ..*trial }, 1.0, 3e-3, most, |[a, b, c]: [f32; 3]| {
-                let receiver = Receiver { p, facing: Facing::Half(n) };
+                let receiver = LightSampleContext { p, facing: Facing::Half(n) };
                 let Some((_, s)) = lights.sample(&receiver, a, [b, c], &Textures::default()) else { return 0.0 };
                 let (Pdf::SolidAngle(pdf) | Pdf::Discrete(pdf)) = s.pdf;
                 f64::from(s.le.0.x * s.wi.dot(n).max(0.0) / pdf)
