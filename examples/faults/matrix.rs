@@ -14,7 +14,7 @@ that a patch names does not notice it, or where a row notices none. ● has noti
 asked as `verify --quick` asks it: a third of its subjects at an eighth of the work, so that a small effect may hide behind
 a ○. A row whose subjects run no code that the fault changes cannot notice it. Where a row that the patch names noticed
 nothing, it was asked again in all its subjects, and then in full. Findings of earlier trees count where `--stale` says so,
-and then only rows that are younger were asked anew.
+and then only rows that are younger were asked anew; where nothing stands, a row or a fault is younger than the last run.
 ";
 
 /// The faults that were planted, and what the battery said to each.
