@@ -1,5 +1,8 @@
 //! The battery of `radianza verify`, in its default size and as it is run by everyone: it passes, it covers every row whose
-//! subject exists, and each row could see a fault.
+//! subject exists, and each row could see a fault. Beside it: random scenes, and the checks of a scene of one's own.
+
+mod random;
+mod scene;
 
 use radianza::stats::{ALPHA, Evidence};
 use radianza::verify::report::text::{Detail, table};

@@ -381,10 +381,13 @@ fn what_emits_through_holes_emits_by_its_coverage() {
 #[test]
 fn skipped_tests_are_seen() {
     let output = std::process::Command::new(std::env::current_exe().unwrap())
-        .args(["--exact", "mitsuba_sees_the_same"])
+        .args(["--exact", "export::mitsuba_sees_the_same"])
         .env_remove("RADIANZA_MITSUBA")
         .output()
         .unwrap();
     let err = String::from_utf8_lossy(&output.stderr);
-    assert!(output.status.success() && err.contains("skipped: mitsuba_sees_the_same: RADIANZA_MITSUBA"), "{err}");
+    assert!(
+        output.status.success() && err.contains("skipped: export::mitsuba_sees_the_same: RADIANZA_MITSUBA"),
+        "{err}"
+    );
 }
