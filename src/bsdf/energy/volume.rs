@@ -2,7 +2,7 @@
 //!
 //! Interfaces of any quotient of indices meet in a scene: nested media have one for each pair, dispersive ones for each
 //! wavelength. So the index is an axis of the table, and none is made while anything is traced: the nodes lie in
-//! `dielectric.bin`, which a test writes and another holds against the quadrature. With n ≥ 1 the larger index over the
+//! `into_denser.bin` and `into_thinner.bin`, which a test writes and another holds against the quadrature. With n ≥ 1 the larger index over the
 //! smaller one, the axis is
 //!
 //! ```text
@@ -74,16 +74,18 @@ fn pack(eta: f32, e: Energy, mu: f32, alpha: f32) -> [f32; 2] {
 /// Both sides: of index η ≥ 1, and of η < 1.
 #[inline]
 pub(super) fn volumes() -> &'static [Volume; 2] {
-    static VOLUMES: LazyLock<[Volume; 2]> = LazyLock::new(|| {
-        let mut data = DATA.chunks_exact(2).map(|c| u16::from_le_bytes([c[0], c[1]]));
-        [0, 1].map(|side| Volume::read(side, &mut data))
-    });
+    static VOLUMES: LazyLock<[Volume; 2]> = LazyLock::new(|| [0, 1].map(|side| Volume::read(side, &mut numbers(side))));
     &VOLUMES
 }
 
-/// For each side and node, index by index, α by α: √loss and √transmitted in units of 1/65535; then, likewise, the means
+/// For each side. Of its nodes, index by index, α by α: √loss and √transmitted in units of 1/65535; then, likewise, the means
 /// over the hemisphere, √mean.
-const DATA: &[u8] = include_bytes!("dielectric.bin");
+const DATA: [&[u8]; 2] = [include_bytes!("into_denser.bin"), include_bytes!("into_thinner.bin")];
+
+/// The numbers in a side's file.
+fn numbers(side: usize) -> impl Iterator<Item = u16> {
+    DATA[side].chunks_exact(2).map(|c| u16::from_le_bytes([c[0], c[1]]))
+}
 
 fn decode(x: u16) -> f32 {
     let root = f32::from(x) / 65535.0;
@@ -207,12 +209,12 @@ mod tests {
         (x.clamp(0.0, 1.0).sqrt() * 65535.0).round() as u16
     }
 
-    /// Writes the file: `cargo test --profile faults --lib volume -- --ignored`.
+    /// Writes the files: `cargo test --profile faults --lib volume -- --ignored`.
     #[test]
-    #[ignore = "writes src/bsdf/energy/dielectric.bin anew: half a minute"]
+    #[ignore = "writes src/bsdf/energy/into_*.bin anew: half a minute"]
     fn write() {
-        let mut file: Vec<u16> = Vec::new();
-        for side in 0..2 {
+        for (side, name) in ["into_denser.bin", "into_thinner.bin"].into_iter().enumerate() {
+            let mut file: Vec<u16> = Vec::new();
             let rule = if side == 0 { Rule::new::<12, 16>() } else { Rule::new::<12, 24>() };
             let all: Vec<_> = places(N_MU[side]).collect();
             let energies: Vec<Energy> = all.par_iter().map(|&at| exact(&rule, node(side, at))).collect();
@@ -229,18 +231,18 @@ mod tests {
                 over_cosine(Interface::Dielectric { eta }, alpha, loss)[0] as f32
             };
             file.extend((0..N_INDEX * N_ALPHA).map(|at| encode(mean(at))));
+            let bytes: Vec<u8> = file.iter().flat_map(|x| x.to_le_bytes()).collect();
+            let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("src/bsdf/energy");
+            std::fs::write(folder.join(name), bytes).unwrap();
         }
-        let bytes: Vec<u8> = file.iter().flat_map(|x| x.to_le_bytes()).collect();
-        std::fs::write(concat!(env!("CARGO_MANIFEST_DIR"), "/src/bsdf/energy/dielectric.bin"), bytes).unwrap();
     }
 
-    /// The file is what the quadrature says, at nodes of every kind.
+    /// The files are what the quadrature says, at nodes of every kind.
     #[test]
-    fn the_file_is_the_quadrature() {
-        assert_eq!(DATA.len(), N_MU.map(|n| 4 * N_INDEX * N_ALPHA * n + 2 * N_INDEX * N_ALPHA).iter().sum::<usize>());
-        let mut data = DATA.chunks_exact(2).map(|c| u16::from_le_bytes([c[0], c[1]]));
+    fn the_files_are_the_quadrature() {
+        assert_eq!(DATA.map(<[u8]>::len), N_MU.map(|n| 4 * N_INDEX * N_ALPHA * n + 2 * N_INDEX * N_ALPHA));
         for (side, n_mu) in N_MU.into_iter().enumerate() {
-            let rule = Rule::new::<12, 24>();
+            let (rule, mut data) = (Rule::new::<12, 24>(), numbers(side));
             for (number, at) in places(n_mu).enumerate() {
                 let [loss, transmitted] = [(); 2].map(|()| decode(data.next().unwrap()));
                 if number % 397 == 0 {
@@ -249,7 +251,6 @@ mod tests {
                     assert!(off < 1e-4, "{side} {at:?}: {loss} {transmitted}, {e:?}");
                 }
             }
-            let _ = data.nth(N_INDEX * N_ALPHA - 1);
         }
     }
 
