@@ -1,7 +1,8 @@
 //! The list of layers: what a film can keep of every sample, and what images call it.
 //!
 //! All that knows of layers follows this list: what is added to a pixel and how it is averaged, `--layers` and its help, the names
-//! of channels in files. A new layer is an entry here, and a row in the README's table.
+//! of channels in files. A new layer is an entry here, and a row in the README's table; what
+//! samples do not have yet is also a field of [`PixelSample`](super::PixelSample) and a sum in `sample.rs`.
 
 use super::Image;
 use super::sample::SampleSums;

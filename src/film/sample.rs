@@ -26,11 +26,12 @@ impl SampleSums {
     /// Adds a sample; `split` says whether its classes count.
     #[inline(always)]
     pub(super) fn add(&mut self, sample: &PixelSample, classes: &ByClass, split: bool) {
-        add(&mut self.radiance, sample.radiance.to_rgb());
-        add(&mut self.albedo, sample.albedo.to_rgb());
-        add(&mut self.normal, sample.normal.to_array());
-        self.alpha += f64::from(sample.alpha);
-        self.depth += f64::from(sample.depth);
+        let PixelSample { radiance, alpha, albedo, normal, depth } = sample;
+        add(&mut self.radiance, radiance.to_rgb());
+        add(&mut self.albedo, albedo.to_rgb());
+        add(&mut self.normal, normal.to_array());
+        self.alpha += f64::from(*alpha);
+        self.depth += f64::from(*depth);
         if split {
             self.classes.iter_mut().zip(classes).for_each(|(sum, class)| add(sum, class.to_rgb()));
         }
@@ -48,8 +49,9 @@ fn add(sum: &mut [f64; 3], values: [f32; 3]) {
 #[inline(always)]
 pub(super) fn is_plain(sample: &PixelSample, classes: &ByClass, split: bool) -> bool {
     let within = |v: Vec4, least: f32| v.cmpge(Vec4::splat(least)) & v.cmple(Vec4::MAX);
-    let rest = Vec4::new(sample.alpha, sample.depth, 0.0, 0.0);
-    let positive = within(sample.radiance.0, 0.0) & within(sample.albedo.0, 0.0) & within(rest, 0.0);
-    (positive & within(sample.normal.extend(0.0), f32::MIN)).all()
+    let PixelSample { radiance, alpha, albedo, normal, depth } = sample;
+    let rest = Vec4::new(*alpha, *depth, 0.0, 0.0);
+    let positive = within(radiance.0, 0.0) & within(albedo.0, 0.0) & within(rest, 0.0);
+    (positive & within(normal.extend(0.0), f32::MIN)).all()
         && (!split || classes.iter().all(|class| within(class.0, f32::MIN).all()))
 }

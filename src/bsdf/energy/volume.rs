@@ -2,8 +2,8 @@
 //!
 //! Interfaces of any quotient of indices meet in a scene: nested media have one for each pair, dispersive ones for each
 //! wavelength. So the index is an axis of the table, and none is made while anything is traced: the nodes lie in
-//! `into_denser.bin` and `into_thinner.bin`, which a test writes and another holds against the quadrature. With n ≥ 1 the larger index over the
-//! smaller one, the axis is
+//! `into_denser.bin` and `into_thinner.bin`, which a test writes and another holds against the quadrature. With n ≥ 1 the
+//! larger index over the smaller one, the axis is
 //!
 //! ```text
 //! y = ln(t/t_min) / ln(t_max/t_min),    t = (n − 1)/(n + 1)
